@@ -1,0 +1,58 @@
+/// The adversary's side of the channels. One file an attack.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/params.hpp"
+#include "engine/core/registry.hpp"
+
+namespace vigil {
+
+enum class LinkState : std::uint8_t { clean = 0, dos = 1, fdi = 2, replay = 3 };
+
+/// What happens on every directed channel in one tick: the same for every lane that is not spared.
+struct LinkEffects {
+  std::vector<LinkState> state;  ///< one a link
+  Eigen::MatrixXd injected;      ///< message size x links; zero where nothing is injected
+  Eigen::VectorXd strength;      ///< one a link: the attack signal drawn (a DoS has one too), NaN where the attack draws none
+
+  void resize(int message, int links);
+  void clear();
+  /// A jammed channel carries nothing, whatever else was injected on it.
+  void jam(int link);
+  /// Adds to what the channel carries, unless it is jammed.
+  void inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added);
+};
+
+/// What a receiver may know of a channel's statistics: the published probabilities and the bound, never a realisation.
+struct LinkRates {
+  double dos = 0;    ///< phi-bar
+  double fdi = 0;    ///< gamma-bar
+  double delta = 0;  ///< bound on the norm of an injected vector
+};
+
+struct AttackContext {
+  std::string id;        ///< names its draws
+  std::uint64_t seed = 0;
+  int message = 0;       ///< size of what a channel carries: the plant's states
+};
+
+/// A value with no memory of its own but its parameters: what it does at a tick depends on tick and draws alone.
+class Attack {
+ public:
+  virtual ~Attack() = default;
+  virtual std::unique_ptr<Attack> clone() const = 0;
+  /// Acts at tick k on the given links (indices); `effects` holds what earlier attacks of the document did. No allocation.
+  virtual void act(std::int64_t k, std::span<const int> links, LinkEffects& effects) const = 0;
+  virtual LinkRates rates() const = 0;
+};
+
+/// Throws InputError (pointers relative to the params) for what the table cannot check: sums of probabilities, norms, sizes.
+using AttackMake = std::unique_ptr<Attack> (*)(const Params& params, const AttackContext& context);
+
+}  // namespace vigil

@@ -1,0 +1,113 @@
+/// A method: what a lane runs. It sees readings, messages and declared knowledge, never the truth, an attack or the scenario.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/adversary/attack.hpp"
+#include "engine/core/json.hpp"
+#include "engine/core/params.hpp"
+#include "engine/core/registry.hpp"
+#include "engine/run/frame.hpp"
+#include "engine/world/graph.hpp"
+#include "engine/world/plant.hpp"
+#include "engine/world/sensor.hpp"
+
+namespace vigil {
+
+/// What every node may honestly know before the run.
+struct Knowledge {
+  std::shared_ptr<const Plant> plant;
+  std::vector<std::shared_ptr<const Sensor>> sensors;  ///< one a node
+  std::vector<std::string> nodes;                      ///< their ids
+  Graph graph;
+  Eigen::MatrixXd Q;          ///< process noise, states x states, positive semidefinite
+  Eigen::MatrixXd P0;         ///< covariance of the initial estimates
+  Eigen::MatrixXd estimates;  ///< initial estimates, states x nodes
+  std::vector<LinkRates> rates;  ///< one a link: the adversary's published statistics (zero for a lane that is spared)
+};
+
+/// What a node received on one link in one exchange round.
+struct Delivery {
+  bool lost = false;     ///< nothing came (the receiver sees that: seed 000, "the detector recognises attacks correctly")
+  bool flagged = false;  ///< falsified. An oracle: only methods that declare it as an input look at it
+  Eigen::VectorXd payload;
+};
+
+/// Readings as received: one vector a node, NaN where a channel gave nothing.
+using Readings = std::vector<Eigen::VectorXd>;
+
+/// What a method believes at one output: views into its own memory, valid until its next call. Null: it has none.
+struct Belief {
+  const double* mean = nullptr;                   ///< states
+  const double* covariance = nullptr;             ///< states x states, column-major: a covariance or an upper bound of it
+  const double* innovation = nullptr;             ///< innovation_size values; null in a tick without a reading
+  const double* innovation_covariance = nullptr;  ///< column-major
+  int innovation_size = 0;
+};
+
+/// Where a method reports what went wrong. Counted by node and code; the detail of the first is kept.
+class FaultReport {
+ public:
+  virtual ~FaultReport() = default;
+  /// node: output index, -1 for the whole lane. `detail` is only called the first time.
+  virtual void fault(int node, const char* code, const std::function<std::string()>& detail) = 0;
+  /// The same, and the lane stops here: its signals are empty from this tick on.
+  virtual void stop(int node, const char* code, const std::function<std::string()>& detail) = 0;
+};
+
+/// Declares a method's own signals under "lane.<lane>." and returns ids to write to in publish().
+class SignalScope {
+ public:
+  virtual ~SignalScope() = default;
+  /// output: index, or -1 for a signal of the whole lane.
+  virtual int add(int output, const std::string& name, const std::string& unit, SignalKind kind) = 0;
+};
+
+/// A method's own figure of a run. output -1: the whole lane.
+struct OwnMetric {
+  int output = -1;
+  std::string name;
+  double value = 0;
+  bool boolean = false;
+};
+
+/// One tick of the lane calls predict, then (for message() > 0) send at every node, then update, then publish.
+class Method {
+ public:
+  virtual ~Method() = default;
+  virtual std::unique_ptr<Method> clone() const = 0;
+
+  virtual std::vector<std::string> outputs() const = 0;  ///< ids of what it estimates at: the nodes, or "fused"
+  virtual int message() const { return 0; }              ///< size of what a node sends; 0: uses no channel
+  virtual void declare(SignalScope& /*scope*/) {}
+
+  virtual void predict(const Eigen::VectorXd& input, FaultReport& report) = 0;
+  virtual void send(int /*node*/, Eigen::Ref<Eigen::VectorXd> /*message*/) const {}
+  /// `inbox` has one delivery a link of the graph.
+  virtual void update(const Readings& readings, std::span<const Delivery> inbox, FaultReport& report) = 0;
+
+  virtual Belief belief(int output) const = 0;
+  /// Writes its own signals of this tick (tick 0: the initial state) into the frame.
+  virtual void publish(std::span<double> values) const { static_cast<void>(values); }
+
+  virtual Json design() const { return Json::object(); }
+  virtual std::vector<OwnMetric> metrics() const { return {}; }
+  /// True where its covariance is a bound whose campaign-wide ratio is worth taking.
+  virtual bool has_bound() const { return true; }
+
+  /// Live changes. Each throws InputError (pointer relative to the params, or "") and then has changed nothing.
+  virtual void retune(const Params& params) = 0;
+  virtual void rewire(const Graph& graph, const std::vector<LinkRates>& rates) = 0;
+};
+
+/// Throws InputError with pointers relative to the lane's params.
+using MethodMake = std::unique_ptr<Method> (*)(const Params& params, const Knowledge& knowledge);
+
+}  // namespace vigil

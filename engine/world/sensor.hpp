@@ -1,0 +1,33 @@
+/// A sensor: what one node measures of the plant.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/params.hpp"
+#include "engine/core/registry.hpp"
+#include "engine/world/plant.hpp"
+
+namespace vigil {
+
+/// z = h(x) + v, v ~ N(0, R). Immutable and shared.
+class Sensor {
+ public:
+  virtual ~Sensor() = default;
+  virtual const std::vector<Component>& channels() const = 0;
+  virtual const Eigen::MatrixXd& noise() const = 0;  ///< R, channels x channels, positive definite
+  virtual std::optional<Eigen::Vector2d> position() const { return std::nullopt; }  ///< in the plant's plane, its length unit
+  /// z = h(x), without noise.
+  virtual void measure(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const = 0;
+  /// H = dh/dx at x, channels x states.
+  virtual void jacobian(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> H) const = 0;
+
+  int size() const { return static_cast<int>(channels().size()); }
+};
+
+/// Throws InputError (pointers relative to the params) for what the table cannot check.
+using SensorMake = std::shared_ptr<const Sensor> (*)(const Params& params, const Plant& plant);
+
+}  // namespace vigil
