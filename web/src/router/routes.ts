@@ -1,0 +1,32 @@
+/// Which page answers which address. Pages load when they are first opened.
+import type { Component } from 'svelte';
+import { matchPath } from './match';
+
+export type PageProps = { params: Record<string, string> };
+type Page = Component<PageProps>;
+
+export interface Route {
+  pattern: string;
+  /** Entry of the left rail that is lit. */
+  section: 'overview' | 'live' | 'runs' | 'scenarios' | 'about';
+  load: () => Promise<{ default: Page }>;
+}
+
+export const routes: Route[] = [
+  { pattern: '/', section: 'overview', load: () => import('../pages/overview/OverviewPage.svelte') },
+  { pattern: '/live', section: 'live', load: () => import('../pages/live/LivePage.svelte') },
+  { pattern: '/live/:id', section: 'live', load: () => import('../pages/live/LivePage.svelte') },
+  { pattern: '/runs', section: 'runs', load: () => import('../pages/runs/RunsPage.svelte') },
+  { pattern: '/runs/:id', section: 'runs', load: () => import('../pages/live/LivePage.svelte') },
+  { pattern: '/scenarios', section: 'scenarios', load: () => import('../pages/scenarios/ScenariosPage.svelte') },
+  { pattern: '/scenarios/:id', section: 'scenarios', load: () => import('../pages/scenarios/ScenarioPage.svelte') },
+  { pattern: '/about', section: 'about', load: () => import('../pages/about/AboutPage.svelte') },
+];
+
+export function findRoute(path: string): { route: Route; params: Record<string, string> } | null {
+  for (const route of routes) {
+    const params = matchPath(route.pattern, path);
+    if (params) return { route, params };
+  }
+  return null;
+}
