@@ -3,8 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -52,14 +50,15 @@ struct Belief {
   int innovation_size = 0;
 };
 
-/// Where a method reports what went wrong. Counted by node and code; the detail of the first is kept.
+/// Where a method reports what went wrong. Counted by node and code.
 class FaultReport {
  public:
   virtual ~FaultReport() = default;
-  /// node: output index, -1 for the whole lane. `detail` is only called the first time.
-  virtual void fault(int node, const char* code, const std::function<std::string()>& detail) = 0;
+  /// node: output index, -1 for the whole lane; code: a string literal. Returns where to write one sentence the first time this node
+  /// reports this code, null afterwards (so that a fault at every tick costs nothing).
+  virtual std::string* fault(int node, const char* code) = 0;
   /// The same, and the lane stops here: its signals are empty from this tick on.
-  virtual void stop(int node, const char* code, const std::function<std::string()>& detail) = 0;
+  virtual std::string* stop(int node, const char* code) = 0;
 };
 
 /// Declares a method's own signals under "lane.<lane>." and returns ids to write to in publish().

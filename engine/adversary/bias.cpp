@@ -1,0 +1,50 @@
+/// A constant vector added to what a channel carries, each step with a probability.
+#include "engine/adversary/attack.hpp"
+#include "engine/random/draws.hpp"
+
+namespace vigil {
+namespace {
+
+class Bias final : public Attack {
+ public:
+  Bias(const Params& params, const AttackContext& context)
+      : probability_(params.real("probability")),
+        vector_(params.vector("vector")),
+        branch_(context.seed, "adversary." + context.id + ".branch") {
+    if (vector_.size() != context.message) {
+      throw InputError("/vector", "vector has " + std::to_string(vector_.size()) + " entries; a message has " +
+                                      std::to_string(context.message));
+    }
+  }
+
+  std::unique_ptr<Attack> clone() const override { return std::make_unique<Bias>(*this); }
+
+  void act(std::int64_t k, std::span<const int> links, LinkEffects& effects) const override {
+    for (const int link : links) {
+      if (branch_.bernoulli(k, static_cast<std::uint32_t>(link), probability_)) effects.inject(link, vector_);
+    }
+  }
+
+  LinkRates rates() const override { return {0, probability_, vector_.norm()}; }
+
+ private:
+  double probability_;
+  Eigen::VectorXd vector_;
+  Draws branch_;
+};
+
+const Registration<AttackMake> registration({
+    "bias",
+    {"Constant false data", "恒定偏差注入"},
+    "seed 000, (5)-(6), gamma alone with a constant vector",
+    ParamTable({
+        {.name = "vector", .type = ParamType::vector, .fallback = Json::array({15.0, 15.0, 0.0}), .live = true, .symbol = "ξ",
+         .meaning = {"What is added to the message", "加到消息上的向量"}},
+        {.name = "probability", .fallback = 1.0, .minimum = 0, .maximum = 1, .live = true, .symbol = "γ̄",
+         .meaning = {"Probability that the channel is falsified in a step", "每步信道被注入虚假数据的概率"}},
+    }),
+    [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> { return std::make_unique<Bias>(params, context); },
+});
+
+}  // namespace
+}  // namespace vigil
