@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/core/input_error.hpp"
@@ -12,24 +13,27 @@ namespace vigil {
 
 class Trace {
  public:
-  /// Reads a frame file: header "k,t,<signal names>", one row a tick, empty = missing. Throws InputError naming line and column:
-  /// ragged rows, numbers that are not, non-finite numbers, ticks that do not count up by one, names given twice, more than
-  /// `max_cells` cells.
+  /// Reads a frame file: header "k,t,<signal names>", one row a tick, empty = missing. Throws InputError naming line
+  /// and column: ragged rows, numbers that are not, non-finite numbers, ticks that do not count up by one, times that
+  /// do not grow evenly, names given twice, more than `max_cells` cells. CRLF, a byte order mark, quoted names and
+  /// blanks around numbers are read.
   static Trace from_csv(std::string_view text, std::size_t max_cells = 200'000'000);
 
   std::int64_t first_tick() const { return first_tick_; }
   std::int64_t rows() const { return rows_; }
-  double dt() const { return dt_; }  ///< of the first two rows, s; 0 with one row
+  double dt() const { return dt_; }                                     ///< of the first two rows, s; 0 with one row
   const std::vector<std::string>& columns() const { return columns_; }  ///< without k and t
-  int find(std::string_view column) const;                                ///< -1: not there
+  int find(std::string_view column) const;                              ///< -1: not there
   /// NaN where missing or outside the trace.
   double at(std::int64_t k, int column) const;
 
  private:
+  friend class TraceReader;
   std::int64_t first_tick_ = 0;
   std::int64_t rows_ = 0;
   double dt_ = 0;
   std::vector<std::string> columns_;
+  std::unordered_map<std::string, int> index_;
   std::vector<double> cells_;  ///< row-major
 };
 
