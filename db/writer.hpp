@@ -21,6 +21,8 @@ struct LogOptions {
   std::size_t checkpoint_bytes = 8u << 20;  ///< of the write-ahead log
   std::optional<double> keep_days;          ///< finished runs older than this are removed
   std::optional<double> keep_gib;           ///< oldest finished runs are removed above this
+  std::function<void()>
+      before_commit;  ///< for tests: called on the writer's thread before each commit; may wait or throw
 };
 
 /// Which frames of a run are kept.
