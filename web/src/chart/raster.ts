@@ -1,0 +1,155 @@
+/// Cells of rows by ticks: one colour a cell, its letter where there is room.
+import { colour, packed } from './colours';
+import { plotHeight, plotWidth, xOf, type Geometry } from './geometry';
+import { axisFont } from './axes';
+import type { Series } from '../data/series';
+
+export interface RasterRow {
+  label: string;
+  series: Series;
+  /** Colour token and letter of a value; null: leave the cell empty. */
+  cell: (value: number) => { token: string; letter?: string } | null;
+  /** Share of the row's height, from its top: a row can be a thin stripe. */
+  weight?: number;
+}
+
+/**
+ * Column of every cell for a window of `columns` columns from tick `from`: where a column holds several ticks the greatest
+ * value stands for it. NaN: nothing known. `width` is ticks per column.
+ */
+export function columnsOf(series: Series, from: number, width: number, columns: number): Float32Array {
+  const out = new Float32Array(columns).fill(NaN);
+  for (let i = 0; i < series.k.length; i++) {
+    const value = series.hi[i]!;
+    if (Number.isNaN(value)) continue;
+    const next = series.k[i + 1];
+    const first = Math.floor((series.k[i]! - from) / width);
+    // A reduced window's points stand for all ticks up to the next point.
+    const last = next !== undefined && series.joined[i + 1] && series.lo !== series.hi ? Math.ceil((next - from) / width) - 1 : first;
+    for (let c = Math.max(0, first); c <= Math.min(columns - 1, Math.max(first, last)); c++) {
+      const known = out[c]!;
+      if (Number.isNaN(known) || value > known) out[c] = value;
+    }
+  }
+  return out;
+}
+
+/** Ticks a column stands for: one while cells are at least 2 px wide, else as many as keep them so. */
+export function ticksPerColumn(g: Geometry): number {
+  return Math.max(1, Math.ceil((2 * (g.to - g.from)) / plotWidth(g)));
+}
+
+const scratch: { canvas: HTMLCanvasElement | null } = { canvas: null };
+
+/** Draws all rows. A cell of tick k covers [k - 1/2, k + 1/2]. */
+export function drawRaster(context: CanvasRenderingContext2D, g: Geometry, rows: readonly RasterRow[]): void {
+  if (!rows.length) return;
+  const per = ticksPerColumn(g);
+  const from = Math.floor(g.from / per) * per;
+  const columns = Math.ceil((g.to - from + 1) / per) + 1;
+  const canvas = (scratch.canvas ??= document.createElement('canvas'));
+  canvas.width = columns;
+  canvas.height = rows.length;
+  const inner = canvas.getContext('2d');
+  if (!inner) return;
+  const image = inner.createImageData(columns, rows.length);
+  const pixels = new Uint32Array(image.data.buffer);
+  const tokens = new Map<string, number>();
+  const cells = rows.map((row) => columnsOf(row.series, from, per, columns));
+  rows.forEach((row, r) => {
+    for (let c = 0; c < columns; c++) {
+      const value = cells[r]![c]!;
+      const cell = Number.isNaN(value) ? null : row.cell(value);
+      if (!cell) continue;
+      let pixel = tokens.get(cell.token);
+      if (pixel === undefined) tokens.set(cell.token, (pixel = packed(colour(cell.token))));
+      pixels[r * columns + c] = pixel;
+    }
+  });
+  inner.putImageData(image, 0, 0);
+  paint(context, g, rows, cells, canvas, { from, per, columns });
+}
+
+function paint(
+  context: CanvasRenderingContext2D,
+  g: Geometry,
+  rows: readonly RasterRow[],
+  cells: readonly Float32Array[],
+  canvas: HTMLCanvasElement,
+  p: { from: number; per: number; columns: number },
+): void {
+  const left = xOf(g, p.from - 0.5);
+  const right = xOf(g, p.from + p.columns * p.per - 0.5);
+  const cellWidth = (right - left) / p.columns;
+  const spans = rowSpans(g, rows);
+  context.save();
+  context.beginPath();
+  context.rect(g.left, g.top, plotWidth(g), plotHeight(g));
+  context.clip();
+  context.imageSmoothingEnabled = false;
+  rows.forEach((_, r) => {
+    const span = spans[r]!;
+    context.fillStyle = colour('grid');
+    context.fillRect(g.left, span.y, plotWidth(g), span.height);
+    context.drawImage(canvas, 0, r, p.columns, 1, left, span.y, right - left, span.height);
+  });
+  if (cellWidth >= 5) {
+    context.fillStyle = colour('surface');
+    for (let c = 0; c <= p.columns; c++) context.fillRect(Math.round(left + c * cellWidth) - 0.5, g.top, 1, plotHeight(g));
+  }
+  if (cellWidth >= 9) letters(context, rows, cells, spans, left, cellWidth, p.columns);
+  context.restore();
+}
+
+function letters(
+  context: CanvasRenderingContext2D,
+  rows: readonly RasterRow[],
+  cells: readonly Float32Array[],
+  spans: readonly { y: number; height: number }[],
+  left: number,
+  cellWidth: number,
+  columns: number,
+): void {
+  context.fillStyle = colour('surface');
+  context.textAlign = 'center';
+  context.textBaseline = 'middle';
+  rows.forEach((row, r) => {
+    const span = spans[r]!;
+    if (span.height < 8) return;
+    context.font = `600 ${Math.min(11, span.height - 0.5)}px 'IBM Plex Mono', monospace`;
+    for (let c = 0; c < columns; c++) {
+      const value = cells[r]![c]!;
+      const letter = Number.isNaN(value) ? undefined : row.cell(value)?.letter;
+      if (letter) context.fillText(letter, left + (c + 0.5) * cellWidth, span.y + span.height / 2 + 0.5);
+    }
+  });
+}
+
+/** Top and height of every row, one pixel between them. */
+export function rowSpans(g: Geometry, rows: readonly { weight?: number }[]): { y: number; height: number }[] {
+  const total = rows.reduce((sum, row) => sum + (row.weight ?? 1), 0) || 1;
+  const unit = plotHeight(g) / total;
+  let y = g.top;
+  return rows.map((row) => {
+    const height = unit * (row.weight ?? 1);
+    const span = { y: Math.round(y), height: Math.max(1, Math.round(y + height) - Math.round(y) - (height > 3 ? 1 : 0)) };
+    y += height;
+    return span;
+  });
+}
+
+/** Row names at the left; where rows are too low for text, every second, third … */
+export function drawRowLabels(context: CanvasRenderingContext2D, g: Geometry, rows: readonly RasterRow[]): void {
+  const spans = rowSpans(g, rows);
+  context.font = axisFont;
+  context.textAlign = 'right';
+  context.textBaseline = 'middle';
+  context.fillStyle = colour('muted');
+  let free = -Infinity;
+  rows.forEach((row, r) => {
+    const middle = spans[r]!.y + spans[r]!.height / 2;
+    if (!row.label || middle - free < 10.5) return;
+    context.fillText(row.label, g.left - 6, middle + 0.5);
+    free = middle;
+  });
+}

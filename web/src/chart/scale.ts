@@ -1,0 +1,92 @@
+/// Vertical scales and their ticks.
+import type { Series } from '../data/series';
+
+export interface Scale {
+  log: boolean;
+  lo: number;
+  hi: number;
+}
+
+/** 0 at the bottom, 1 at the top; NaN where a logarithmic scale has no place for the value. */
+export function fraction(scale: Scale, value: number): number {
+  if (scale.log) return value > 0 ? (Math.log10(value) - Math.log10(scale.lo)) / (Math.log10(scale.hi) - Math.log10(scale.lo)) : NaN;
+  return (value - scale.lo) / (scale.hi - scale.lo);
+}
+
+/** Least and greatest number in the window; positive ones only for a logarithmic scale. Null if there is none. */
+export function extent(all: readonly Series[], from: number, to: number, positive: boolean): { lo: number; hi: number } | null {
+  let lo = Infinity;
+  let hi = -Infinity;
+  for (const series of all) {
+    for (let i = 0; i < series.k.length; i++) {
+      const k = series.k[i]!;
+      if (k < from || k > to) continue;
+      const low = series.lo[i]!;
+      const high = series.hi[i]!;
+      if (low < lo && (!positive || low > 0)) lo = low;
+      if (high > hi && (!positive || high > 0)) hi = high;
+    }
+  }
+  if (positive && hi > 0 && lo === Infinity) lo = hi;
+  return lo <= hi ? { lo, hi } : null;
+}
+
+/** A scale that holds the values with some room: whole decade halves when logarithmic, so that it changes seldom. */
+export function fit(values: { lo: number; hi: number } | null, log: boolean): Scale {
+  if (!values) return log ? { log, lo: 0.1, hi: 10 } : { log, lo: 0, hi: 1 };
+  if (log) {
+    const lo = Math.floor(Math.log10(values.lo) * 2 - 0.2) / 2;
+    const hi = Math.ceil(Math.log10(values.hi) * 2 + 0.2) / 2;
+    return { log, lo: 10 ** lo, hi: 10 ** Math.max(hi, lo + 1) };
+  }
+  const step = niceStep(Math.max(values.hi - values.lo, Math.abs(values.hi) * 1e-6, 1e-12) / 4);
+  const lo = Math.floor(values.lo / step) * step;
+  const hi = Math.ceil(values.hi / step) * step;
+  return { log, lo, hi: hi > lo ? hi : lo + step };
+}
+
+/** Whether a value needs another scale. */
+export function outside(scale: Scale, value: number): boolean {
+  return Number.isFinite(value) && (value > scale.hi || (value < scale.lo && (!scale.log || value > 0)));
+}
+
+/** 1, 2 or 5 times a power of ten, not below `rough`. */
+export function niceStep(rough: number): number {
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const ratio = rough / power;
+  return (ratio <= 1 ? 1 : ratio <= 2 ? 2 : ratio <= 5 ? 5 : 10) * power;
+}
+
+/** About `count` round numbers in [lo, hi]. */
+export function ticks(lo: number, hi: number, count: number): number[] {
+  if (!(hi > lo)) return [];
+  const step = niceStep((hi - lo) / Math.max(1, count));
+  const result: number[] = [];
+  for (let i = Math.ceil(lo / step - 1e-9); i * step <= hi + step * 1e-9; i++) result.push(Number((i * step).toPrecision(12)));
+  return result;
+}
+
+export function scaleTicks(scale: Scale, count: number): number[] {
+  if (!scale.log) return ticks(scale.lo, scale.hi, count);
+  const low = Math.ceil(Math.log10(scale.lo) - 1e-9);
+  const high = Math.floor(Math.log10(scale.hi) + 1e-9);
+  const every = Math.max(1, Math.ceil((high - low + 1) / Math.max(2, count)));
+  const result: number[] = [];
+  for (let p = low; p <= high; p += every) result.push(10 ** p);
+  return result;
+}
+
+/** A tick's label: short, plain where it can be. */
+export function tickLabel(value: number): string {
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-3) {
+    const [mantissa, exponent] = value.toExponential(0).split('e') as [string, string];
+    return `${mantissa === '1' ? '' : `${mantissa}·`}10${superscript(Number(exponent))}`;
+  }
+  return String(Number(value.toPrecision(6)));
+}
+
+function superscript(value: number): string {
+  return String(value).replace(/[-0-9]/g, (c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]!));
+}
