@@ -20,6 +20,18 @@ std::string cut(std::string text, std::size_t limit) {
 
 std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+/// Few entries and at most two levels: only such arrays are written out, whatever somebody sends.
+bool is_short(const Json& array) {
+  if (array.size() > 16) return false;
+  for (const auto& row : array) {
+    if (row.size() > 16 && row.is_structured()) return false;
+    for (const auto& entry : row) {
+      if (entry.is_structured()) return false;
+    }
+  }
+  return true;
+}
+
 /// Bytes that follow a lead byte; -1 where it cannot lead.
 int followers(unsigned char lead) {
   if (lead < 0x80U) return 0;
@@ -40,8 +52,7 @@ bool is_scalar(std::uint32_t code, int more) {
 std::string shown(const Json& value) {
   if (value.is_number_float() && !std::isfinite(value.get<double>())) return number_text(value.get<double>());
   if (value.is_object()) return value.empty() ? "{}" : "an object";
-  // A long array is cut anyway; only its beginning is written out.
-  if (value.is_array() && value.size() > 16) return "an array of " + std::to_string(value.size());
+  if (value.is_array() && !is_short(value)) return "an array of " + std::to_string(value.size());
   return cut(dump(value), kShown);
 }
 

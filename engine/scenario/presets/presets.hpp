@@ -1,0 +1,17 @@
+/// The scenarios that come with Vigil, as documents that still lack their defaults.
+#pragma once
+
+#include "engine/core/json.hpp"
+
+namespace vigil::presets {
+
+/// Seed 000 in centimetres and degrees: specification, sections 2, 3 and 11, column cmdeg.
+Json consensus();
+/// The same with a compass on every camera: the theorem's conditions hold at every step.
+Json consensus_compass();
+/// The paper's numbers read as metres and radians: expected to fail to track.
+Json consensus_literal();
+/// A real robot and fifteen landmarks: UTIAS MRCLAM data set 6, robot 3. Needs a trace.
+Json mrclam();
+
+}  // namespace vigil::presets

@@ -1,0 +1,233 @@
+/// The JSON Schema of scenario documents, made from the declared parameters: what forms, editors and other programs
+/// read.
+#include "engine/adversary/attack.hpp"
+#include "engine/methods/method.hpp"
+#include "engine/scenario/scenario.hpp"
+#include "engine/scenario/schema_leaf.hpp"
+#include "engine/scenario/sections.hpp"
+#include "engine/world/plant.hpp"
+#include "engine/world/sensor.hpp"
+
+namespace vigil {
+namespace {
+
+using schema::leaf;
+using schema::object;
+using schema::reference;
+
+Json text() { return {{"type", "string"}, {"maxLength", 4096}}; }
+Json boolean() { return {{"type", "boolean"}}; }
+Json choice(const std::vector<std::string>& words) { return {{"type", "string"}, {"enum", words}}; }
+
+Json tick(int minimum, bool nullable) {
+  Json type = "integer";
+  if (nullable) type = {"integer", "null"};
+  return {{"type", type}, {"minimum", minimum}, {"maximum", 1'000'000'000'000}};
+}
+
+/// The ids of one kind, with their titles for the eye.
+template <class Make>
+Json kinds(const Words& words) {
+  Json result = leaf(choice(Registry<Make>::ids()), words);
+  for (const auto& entry : Registry<Make>::all()) {
+    result["x-labels"][entry.id] = {{"en", entry.title.en}, {"zh", entry.title.zh}};
+  }
+  return result;
+}
+
+/// One definition "<kind>.<id>" for the params of each entry.
+template <class Make>
+void define(const std::string& kind, Json& definitions) {
+  for (const auto& entry : Registry<Make>::all()) {
+    Json params = leaf(entry.params.schema(), entry.title);
+    params["x-source"] = entry.source;
+    definitions[kind + "." + entry.id] = std::move(params);
+  }
+}
+
+/// [{if key is this id, then params follow its definition}, …]
+template <class Make>
+Json branches(const std::string& kind, const std::string& key) {
+  Json result = Json::array();
+  for (const auto& entry : Registry<Make>::all()) {
+    const Json condition = {{"properties", {{key, {{"const", entry.id}}}}}, {"required", Json::array({key})}};
+    Json then = {{"properties", {{"params", reference(kind + "." + entry.id)}}}};
+    bool needs_params = false;
+    for (const auto& param : entry.params.all()) needs_params = needs_params || param.required;
+    if (needs_params) then["required"] = Json::array({"params"});
+    result.push_back({{"if", condition}, {"then", std::move(then)}});
+  }
+  return result;
+}
+
+Json params_slot() { return {{"type", "object"}}; }
+
+template <class Make>
+Json typed(const std::string& kind, const Words& words) {
+  Json result = object({{"type", kinds<Make>(words)}, {"params", params_slot()}}, Json::array({"type"}));
+  result["allOf"] = branches<Make>(kind, "type");
+  return leaf(std::move(result), words);
+}
+
+Json title() {
+  const Json both = object(
+      {{"en", leaf(text(), {"English title", "英文标题"})}, {"zh", leaf(text(), {"Chinese title", "中文标题"})}});
+  return leaf({{"anyOf", Json::array({both, text()})}}, {"Title", "标题"});
+}
+
+Json time() {
+  Json length = {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1e12}, {"x-unit", "s"}};
+  return leaf(
+      object({{"dt", leaf(std::move(length), {"Length of a tick", "每步时长"}, 1)},
+              {"steps", leaf(tick(1, true),
+                             {"Last tick; none: until stopped or the trace's end", "最后一步；无：直至停止或记录结束"},
+                             nullptr)}}),
+      {"Time", "时间"});
+}
+
+Json node() { return object({{"sensor", typed<SensorMake>("sensor", {"Sensor", "传感器"})}}, Json::array({"sensor"})); }
+
+Json network() {
+  const Json named = choice({"none", "ring", "ladder", "path", "complete", "knn2", "knn3", "edges"});
+  const Json by_number = {{"type", "string"}, {"pattern", "^(knn[1-9][0-9]*|radius[0-9.]+(e[+-]?[0-9]+)?)$"}};
+  Json graph = leaf({{"anyOf", Json::array({named, by_number})}},
+                    {"Graph by name; also knn<k> and radius<r>", "网络拓扑名称；也可用 knn<k> 与 radius<r>"}, "none");
+  graph["x-live"] = true;
+  const Json end = {{"type", {"string", "integer"}}};
+  const Json pair = {{"type", "array"}, {"items", end}, {"minItems", 2}, {"maxItems", 2}};
+  Json edges = leaf({{"type", "array"}, {"items", pair}, {"maxItems", 4096}},
+                    {"Pairs of node ids, used where the graph is \"edges\"", "节点对，graph 为 \"edges\" 时使用"});
+  edges["x-live"] = true;
+  return leaf(object({{"graph", std::move(graph)}, {"edges", std::move(edges)}}), {"Network", "网络"});
+}
+
+Json covariance(const Words& words, const char* symbol) {
+  const Json number = {{"type", "number"}, {"minimum", 0}};
+  const Json diagonal = {{"type", "array"}, {"items", number}, {"minItems", 1}};
+  const Json rows = {
+      {"type", "array"}, {"minItems", 1}, {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
+  Json result = leaf({{"anyOf", Json::array({number, diagonal, rows})}}, words, 0);
+  result["x-symbol"] = symbol;
+  result["x-type"] = "matrix";
+  return result;
+}
+
+Json noise() {
+  return leaf(object({{"Q", covariance({"Covariance of the process noise", "过程噪声协方差"}, "Q")},
+                      {"P0", covariance({"Covariance of the initial estimates", "初始估计协方差"}, "P_0")}}),
+              {"Noise", "噪声"});
+}
+
+Json initial(const Json& document) {
+  const Json state = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 1}, {"maxItems", 64}};
+  Json nodes = Json::object();
+  for (const auto& [id, member] : document["nodes"].items()) nodes[id] = state;
+  const Json none = {{"type", "null"}};
+  const Json truth = {{"anyOf", Json::array({state, none})}};
+  const Json estimates = {{"anyOf", Json::array({object(std::move(nodes)), {{"const", "truth"}}, none})}};
+  return leaf(
+      object({{"truth", leaf(truth, {"True initial state; none: drawn", "真实初始状态；无：随机抽取"}, nullptr)},
+              {"estimates", leaf(estimates,
+                                 {"Initial estimates by node, or \"truth\"; none: drawn",
+                                  "各节点初始估计，或 \"truth\"；无：随机抽取"},
+                                 nullptr)}}),
+      {"Initial values", "初始值"});
+}
+
+Json live(Json member) {
+  member["x-live"] = true;
+  return member;
+}
+
+Json attack() {
+  const Json place = {{"type", "string"}, {"pattern", "^link:(\\*|[A-Za-z0-9_]{1,16}-[A-Za-z0-9_]{1,16})$"}};
+  const Json places = {{"type", "array"}, {"items", place}, {"minItems", 1}, {"maxItems", 4096}};
+  Json result =
+      object({{"type", kinds<AttackMake>({"Attack", "攻击"})},
+              {"on", leaf(places, {"Where: link:<from>-<to> or link:*", "作用位置：link:<from>-<to> 或 link:*"})},
+              {"from", live(leaf(tick(0, false), {"First tick", "起始步"}, 1))},
+              {"to", live(leaf(tick(0, true), {"Last tick; none: to the end", "结束步；无：直至结束"}, nullptr))},
+              {"enabled", live(leaf(boolean(), {"Acts", "启用"}, true))},
+              {"params", params_slot()}},
+             Json::array({"type", "on"}));
+  result["allOf"] = branches<AttackMake>("attack", "type");
+  return result;
+}
+
+Json lane() {
+  Json result = object(
+      {{"method", kinds<MethodMake>({"Method", "方法"})},
+       {"path", leaf(choice({"loop", "monitor"}), {"Who listens to the sensor channel", "谁接收传感器信道"}, "loop")},
+       {"adversary", leaf(boolean(), {"Meets the adversary", "受攻击者影响"}, true)},
+       {"enabled", leaf(boolean(), {"Runs", "启用"}, true)},
+       {"params", params_slot()}},
+      Json::array({"method"}));
+  result["allOf"] = branches<MethodMake>("method", "method");
+  return result;
+}
+
+Json metrics() {
+  const Json window =
+      object({{"from", leaf(tick(0, false), {"First tick scored", "评分起始步"}, 0)},
+              {"to", leaf(tick(0, true), {"Last tick scored; none: the last", "评分结束步；无：最后一步"}, nullptr)}});
+  return leaf(object({{"window", leaf(window, {"Ticks that are scored", "评分区间"})}}), {"Metrics", "指标"});
+}
+
+Json log() {
+  const Json signals = {
+      {"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}, {"minItems", 1}, {"maxItems", 4096}};
+  const Json keep = {{"type", {"number", "null"}}, {"exclusiveMinimum", 0}, {"maximum", 1e12}, {"x-unit", "s"}};
+  const Json policy = {{"type", {"string", "null"}}, {"enum", {"lossless", "live", nullptr}}};
+  return leaf(
+      object({{"signals", leaf(signals, {"Signals that are logged, * for any text", "记录的信号，* 为任意文字"},
+                               Json::array({"*"}))},
+              {"every", leaf(tick(1, false), {"Every how many ticks", "记录间隔（步）"}, 1)},
+              {"keep", leaf(keep, {"How long samples are kept; none: always", "样本保留时长；无：始终保留"}, nullptr)},
+              {"policy", leaf(policy,
+                              {"Lossless waits for the disk, live never does; none: by the pace",
+                               "lossless 等待磁盘，live 从不等待；无：按运行速度"},
+                              nullptr)}}),
+      {"Log", "日志"});
+}
+
+Json properties(const Json& document) {
+  const Json id = {{"type", "string"}, {"pattern", "^[a-z0-9][a-z0-9-]{0,63}$"}};
+  const Json controller = object({{"type", leaf(choice({"none"}), {"Controller", "控制器"}, "none")}});
+  return {{"vigil", leaf({{"const", 1}}, {"Version of the format", "格式版本"})},
+          {"id", leaf(id, {"Id", "标识"})},
+          {"title", title()},
+          {"source", leaf(text(), {"Where it comes from", "来源"}, "")},
+          {"family", leaf(choice({"consensus"}), {"Family", "类别"}, "consensus")},
+          {"profile", leaf(text(), {"Profile", "参数组"}, "")},
+          {"time", time()},
+          {"plant", typed<PlantMake>("plant", {"Plant", "被控对象"})},
+          {"controller", leaf(controller, {"Controller", "控制器"})},
+          {"nodes", leaf(schema::map("^[A-Za-z0-9_]{1,16}$", node(), 1, section::kMostNodes), {"Nodes", "节点"})},
+          {"network", network()},
+          {"noise", noise()},
+          {"initial", initial(document)},
+          {"adversary",
+           leaf(schema::map("^[a-z0-9_]{1,32}$", attack(), 0, section::kMostAttacks), {"Adversary", "攻击者"})},
+          {"lanes", leaf(schema::map("^[a-z0-9_]{1,32}$", lane(), 1, section::kMostLanes), {"Lanes", "通道"})},
+          {"metrics", metrics()},
+          {"log", log()},
+          {"reproducible", leaf(boolean(), {"Secrets, too, come from the seed", "机密也由种子生成"}, true)},
+          {"view", leaf({{"type", "object"}}, {"Hints for the page", "页面提示"})}};
+}
+
+}  // namespace
+
+Json Scenario::schema() const {
+  Json result = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}};
+  Json root = object(properties(document_), Json::array({"vigil", "id", "plant", "nodes", "lanes"}));
+  result.update(leaf(std::move(root), {"Vigil scenario", "Vigil 场景"}));
+  Json definitions = Json::object();
+  define<PlantMake>("plant", definitions);
+  define<SensorMake>("sensor", definitions);
+  define<AttackMake>("attack", definitions);
+  define<MethodMake>("method", definitions);
+  result["$defs"] = std::move(definitions);
+  return result;
+}
+
+}  // namespace vigil
