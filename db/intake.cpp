@@ -103,6 +103,7 @@ Intake::Taken Intake::take(std::size_t most) {
   taken.rows.assign(std::make_move_iterator(full_.begin()), std::make_move_iterator(end));
   full_.erase(full_.begin(), end);
   queued_ -= taken.bytes;
+  taken.left = !full_.empty();
   taken.gaps = std::exchange(gaps_, {});
   if (closed_ && std::exchange(dropping_, false)) taken.gaps.push_back(gap_);
   return taken;

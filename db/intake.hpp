@@ -33,6 +33,7 @@ class Intake {
     std::vector<RowBatch> rows;
     std::vector<GapRow> gaps;
     std::size_t bytes = 0;  ///< to give back with release()
+    bool left = false;      ///< more than a batch stayed behind
   };
   /// What has gathered, oldest first, up to about `most` bytes. After close() an open gap comes along.
   Taken take(std::size_t most);

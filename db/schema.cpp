@@ -20,6 +20,7 @@ CREATE TABLE run(
   every INTEGER NOT NULL DEFAULT 1, policy TEXT NOT NULL, keep REAL, reproducible INTEGER NOT NULL,
   document_hash TEXT NOT NULL, error TEXT NOT NULL DEFAULT '', deleted INTEGER NOT NULL DEFAULT 0);
 CREATE INDEX run_by_end ON run(ended) WHERE deleted=0;
+CREATE INDEX run_keep ON run(id) WHERE keep IS NOT NULL;
 CREATE INDEX run_deleted ON run(id) WHERE deleted=1;
 CREATE TABLE document(
   run INTEGER PRIMARY KEY REFERENCES run(id) ON DELETE CASCADE, body TEXT NOT NULL, design TEXT, world TEXT,

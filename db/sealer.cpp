@@ -33,7 +33,11 @@ void Sealer::add_row(std::int64_t k, const double* cells, std::vector<SealedBloc
     block_ = row / kBlockRows;
   }
   const int place = static_cast<int>(row % kBlockRows);
-  if (end_ == 0) begin_ = saved_ = place;
+  if (end_ == 0) begin_ = saved_ = end_ = place;
+  for (std::size_t c = 0; end_ < place && c <= signals_.size(); ++c) {
+    const auto column = cells_.begin() + static_cast<std::ptrdiff_t>(c * kBlockRows);
+    std::fill(column + end_, column + place, kMissing);
+  }
   end_ = place + 1;
   newest_ = k;
   for (std::size_t c = 0; c <= signals_.size(); ++c)
@@ -81,7 +85,6 @@ void Sealer::seal(std::vector<SealedBlock>& sealed) {
   for (int level = 0; level < 2; ++level) {
     if ((block_ + 1) * kBlockRows % kRollupRows[static_cast<std::size_t>(level) + 1] == 0) emit(level, block);
   }
-  if (lost > 0 || block.n < kBlockRows) std::fill(cells_.begin(), cells_.end(), kMissing);
   begin_ = end_ = saved_ = 0;
 }
 
