@@ -16,8 +16,7 @@ export interface Field {
   kind: Kind;
   /** The parameter's name, as the specification's table has it. */
   name: string;
-  title: Words;
-  help: Words;
+  meaning: Words;
   unit: string;
   symbol: string;
   source: string;
@@ -44,8 +43,7 @@ export interface Section {
   path: string[];
   pointer: string;
   name: string;
-  title: Words;
-  help: Words;
+  meaning: Words;
   fields: Field[];
   sections: Section[];
 }
@@ -54,20 +52,11 @@ export function isSection(part: Field | Section): part is Section {
   return 'fields' in part;
 }
 
-/** English from title or description, Chinese from x-zh: a string (of the description where there is one) or an object. */
-function wordsOf(schema: Schema, name: string): { title: Words; help: Words } {
-  const title = { en: schema.title ?? name, zh: schema.title ?? name };
-  const help = { en: schema.description ?? '', zh: schema.description ?? '' };
+/** The meaning in English (title, else description) and in Chinese (x-zh, else the English). Empty where the schema says none. */
+function meaningOf(schema: Schema): Words {
+  const en = schema.title ?? schema.description ?? '';
   const chinese = schema['x-zh'];
-  if (typeof chinese === 'string') {
-    if (help.en !== '') help.zh = chinese;
-    else title.zh = chinese;
-  } else if (isObject(chinese)) {
-    if (typeof chinese.title === 'string') title.zh = chinese.title;
-    const meaning = chinese.description ?? chinese.meaning;
-    if (typeof meaning === 'string') help.zh = meaning;
-  }
-  return { title, help };
+  return { en, zh: typeof chinese === 'string' && chinese !== '' ? chinese : en };
 }
 
 function numbers(value: Json | undefined): value is number[] {
@@ -127,7 +116,7 @@ function makeField(given: Schema, path: string[], value: Json | undefined, root:
   const fixed = kind === 'vector' && schema.prefixItems ? schema.prefixItems.length : undefined;
   return {
     path, pointer: pointer(path), kind, name,
-    ...wordsOf({ ...schema, ...pickWords(follow(given, root)) }, name),
+    meaning: meaningOf({ ...schema, ...pickWords(follow(given, root)) }),
     unit: schema['x-unit'] ?? '',
     symbol: schema['x-symbol'] ?? '',
     source: schema['x-source'] ?? '',
@@ -181,7 +170,7 @@ export function makeSection(given: Schema, path: string[], value: Json | undefin
   const declared = Object.keys(schema.properties ?? {}).filter((key) => !isMap || Object.hasOwn(held, key));
   const extra = Object.keys(held).filter((key) => !declared.includes(key));
   const keys = isMap ? Object.keys(held) : [...declared, ...extra];
-  const section: Section = { path, pointer: pointer(path), name, ...wordsOf(schema, name), fields: [], sections: [] };
+  const section: Section = { path, pointer: pointer(path), name, meaning: meaningOf(schema), fields: [], sections: [] };
   for (const key of keys) {
     const member = memberSchema(schema, key) ?? {};
     const here = [...path, key];

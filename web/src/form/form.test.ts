@@ -62,7 +62,7 @@ const schema: Schema = {
         params: {
           type: 'object',
           properties: {
-            tau: { type: 'number', minimum: 0, default: 0.01, title: 'tau', description: 'Step margin', 'x-zh': '步长裕度', 'x-live': true },
+            tau: { type: 'number', minimum: 0, default: 0.01, title: 'Step margin', description: 'a number >= 0', 'x-zh': '步长裕度', 'x-live': true },
             delta: { type: ['number', 'null'], minimum: 0, default: null },
             gate: { type: ['number', 'null'], minimum: 0, default: 9 },
           },
@@ -99,7 +99,7 @@ describe('form from schema', () => {
   it('reads kind, unit, range, default and both languages', () => {
     const tau = field(preset, '/lanes/consensus/params/tau');
     expect(tau).toMatchObject({ kind: 'number', minimum: 0, default: 0.01, live: true, value: 0.01 });
-    expect(tau.help).toEqual({ en: 'Step margin', zh: '步长裕度' });
+    expect(tau.meaning).toEqual({ en: 'Step margin', zh: '步长裕度' });
     expect(field(preset, '/time/dt')).toMatchObject({ unit: 's', exclusiveMinimum: 0 });
     expect(field(preset, '/time/steps')).toMatchObject({ kind: 'integer', nullable: true, minimum: 1 });
     expect(field(preset, '/plant/params/kappa').symbol).toBe('κ');
@@ -131,11 +131,11 @@ describe('lanes and attacks', () => {
   it('adds, duplicates and removes without touching the original', () => {
     const before = JSON.stringify(preset);
     const added = addLane(preset, 'consensus_ekf');
-    expect(added.id).toBe('consensus-ekf');
+    expect(added.id).toBe('consensus_ekf');
     const twin = duplicate(added.document, 'lanes', 'consensus');
-    expect(twin.id).toBe('consensus-2');
-    expect(at(twin.document, ['lanes', 'consensus-2', 'params', 'tau'])).toBe(0.01);
-    expect(duplicate(twin.document, 'lanes', 'consensus-2').id).toBe('consensus-3');
+    expect(twin.id).toBe('consensus_2');
+    expect(at(twin.document, ['lanes', 'consensus_2', 'params', 'tau'])).toBe(0.01);
+    expect(duplicate(twin.document, 'lanes', 'consensus_2').id).toBe('consensus_3');
     const gone = remove(twin.document, 'lanes', 'isolated');
     expect(diff(preset, gone).lanes).toMatchObject({ isolated: null });
     expect(addAttack(preset, 'replay').document.adversary).toMatchObject({ replay: { type: 'replay' } });

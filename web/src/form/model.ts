@@ -47,11 +47,11 @@ export function set(document: JsonObject, path: readonly string[], value: Json |
   return put(document, path, value);
 }
 
-/** An id that the map does not have yet: the wanted one, or with -2, -3, … behind it. */
+/** An id that the map does not have yet: the wanted one, or with _2, _3, … behind it. Ids are [a-z0-9_]{1,32}. */
 export function freeId(map: JsonObject, wanted: string): string {
   if (!Object.hasOwn(map, wanted)) return wanted;
-  const stem = wanted.replace(/-\d+$/, '');
-  for (let n = 2; ; n += 1) if (!Object.hasOwn(map, `${stem}-${n}`)) return `${stem}-${n}`;
+  const stem = wanted.replace(/_\d+$/, '').slice(0, 28);
+  for (let n = 2; ; n += 1) if (!Object.hasOwn(map, `${stem}_${n}`)) return `${stem}_${n}`;
 }
 
 function mapAt(document: JsonObject, key: string): JsonObject {
@@ -78,12 +78,12 @@ export function attackTypesOf(schema: Schema): string[] {
 }
 
 export function addLane(document: JsonObject, method: string): { document: JsonObject; id: string } {
-  const id = freeId(mapAt(document, 'lanes'), method.replaceAll('_', '-'));
+  const id = freeId(mapAt(document, 'lanes'), method);
   return { document: put(document, ['lanes', id], { method, params: {} }), id };
 }
 
 export function addAttack(document: JsonObject, type: string): { document: JsonObject; id: string } {
-  const id = freeId(mapAt(document, 'adversary'), type.replaceAll('_', '-'));
+  const id = freeId(mapAt(document, 'adversary'), type);
   return { document: put(document, ['adversary', id], { type, params: {} }), id };
 }
 
