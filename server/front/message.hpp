@@ -36,7 +36,8 @@ class HttpError : public std::runtime_error {
   std::vector<std::pair<std::string, std::string>> headers_;
 };
 
-/// RFC 9457: {"type":"about:blank","title","status","detail","errors":[{"pointer","detail","allowed"}]}; empty errors left out.
+/// RFC 9457: {"type":"about:blank","title","status","detail","errors":[{"pointer","detail","allowed"}]}; empty errors
+/// left out.
 Json problem_json(int status, const std::string& detail, const std::vector<Problem>& errors = {});
 /// "Not Found" and so on; "Status" for a number that has no name here.
 std::string_view status_title(int status);
@@ -48,9 +49,9 @@ struct HttpRequest {
   std::string body;    ///< whole
   std::string remote;  ///< the peer's address
   Access access = Access::full;
-  std::map<std::string, std::string> params;                     ///< of the pattern, percent-decoded
-  std::vector<std::pair<std::string, std::string>> query;        ///< decoded, in order
-  std::vector<std::pair<std::string, std::string>> headers;      ///< as sent, in order
+  std::map<std::string, std::string> params;                 ///< of the pattern, percent-decoded
+  std::vector<std::pair<std::string, std::string>> query;    ///< decoded, in order
+  std::vector<std::pair<std::string, std::string>> headers;  ///< as sent, in order
 
   /// The first header of that name (any case), or "".
   std::string header(std::string_view name) const;
@@ -77,8 +78,8 @@ struct HttpResponse {
   std::vector<std::pair<std::string, std::string>> headers;
   std::string content_type;
   std::string body;
-  /// If set, called once on the worker to write the body in parts (chunked). An exception or false ends the connection, so
-  /// that a cut body never looks whole.
+  /// If set, called once on the worker to write the body in parts (chunked). An exception or false ends the connection,
+  /// so that a cut body never looks whole.
   std::function<bool(const BodyWriter&)> stream;
 
   void set_header(std::string name, std::string value);

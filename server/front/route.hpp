@@ -28,15 +28,15 @@ struct Route {
   std::string pattern;  ///< "/api/v1/runs/{id}/samples": a {name} matches one whole, non-empty segment
   /// Runs on a worker. Throws HttpError, InputError (-> 422); anything else becomes a 500 without its text.
   Handler handler;
-  std::string summary;  ///< one line for OpenAPI
+  std::string summary;        ///< one line for OpenAPI
   Json doc = Json::object();  ///< further OpenAPI fields of the operation, merged in as they are
 
   bool open = false;  ///< no token needed (health, session, the page)
   /// What a body may be. Empty: this route takes no body at all (then no Content-Type is asked for).
   std::vector<std::string> body_types = {"application/json"};
   std::size_t body_limit = 0;  ///< bytes; 0: the front's own
-  /// Set: GET answers with the hub's stream. Called on the loop's thread: must not block; may throw HttpError. If the hub
-  /// does not know the run, `handler` is called on a worker to say 204 (it has ended) or 404.
+  /// Set: GET answers with the hub's stream. Called on the loop's thread: must not block; may throw HttpError. If the
+  /// hub does not know the run, `handler` is called on a worker to say 204 (it has ended) or 404.
   std::function<StreamTarget(const HttpRequest&)> stream;
 };
 
@@ -49,8 +49,8 @@ class Routes {
     std::map<std::string, std::string> params;  ///< decoded
     std::vector<std::string> allowed;           ///< methods the path knows; empty: unknown path
   };
-  /// A literal segment wins over a parameter. HEAD matches GET. A segment that is not valid percent-encoded UTF-8, or that
-  /// holds a control character or an encoded slash, matches no parameter.
+  /// A literal segment wins over a parameter. HEAD matches GET. A segment that is not valid percent-encoded UTF-8, or
+  /// that holds a control character or an encoded slash, matches no parameter.
   Match match(std::string_view method, std::string_view path) const;
   const std::vector<Route>& all() const { return routes_; }
 

@@ -13,12 +13,12 @@ namespace vigil {
 class StaticFiles {
  public:
   StaticFiles() = default;
-  /// Reads every regular file below `folder`; links and hidden files are left out. Throws std::runtime_error if the folder
-  /// cannot be read, or holds more than `max_bytes`.
+  /// Reads every regular file below `folder`; links and hidden files are left out. Throws std::runtime_error if the
+  /// folder cannot be read, or holds more than `max_bytes`.
   explicit StaticFiles(const std::filesystem::path& folder, std::size_t max_bytes = 256u << 20);
   bool empty() const { return files_.empty(); }
-  /// True when `path` names a file, or is a page of the single-page application (no dot in its last segment and not below
-  /// /api): those answer index.html.
+  /// True when `path` names a file, or is a page of the single-page application (no dot in its last segment and not
+  /// below /api): those answer index.html.
   bool has(std::string_view path) const;
   /// Fills the answer: type, ETag, cache rule, gzip where the client takes it, 304 where it has it already.
   void serve(const HttpRequest& request, HttpResponse& response) const;

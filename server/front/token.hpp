@@ -15,8 +15,9 @@ struct Tokens {
   std::string full;    ///< empty: no token is asked for
   std::string viewer;  ///< read-only; may be empty
   bool required() const { return !full.empty(); }
-  /// First line: the token; second line, if any: the viewers' read-only one. Throws std::runtime_error: cannot be read, shorter
-  /// than 16 characters, both alike, characters that a header cannot carry, or (warned about by the caller) nothing else.
+  /// First line: the token; second line, if any: the viewers' read-only one. Throws std::runtime_error: cannot be read,
+  /// shorter than 16 characters, both alike, characters that a header cannot carry, or (warned about by the caller)
+  /// nothing else.
   static Tokens from_file(const std::filesystem::path& file);
 };
 

@@ -1,7 +1,7 @@
 /// The hub: what runs publish, kept in bounded rings, read by any number of viewers. No HTTP and no socket in it.
 ///
-/// A run's thread pays for one copy of the frame, whether nobody or a thousand watch; encoding and sending happen on the
-/// thread that reads (the front's loop).
+/// A run's thread pays for one copy of the frame, whether nobody or a thousand watch; encoding and sending happen on
+/// the thread that reads (the front's loop).
 #pragma once
 
 #include <chrono>
@@ -20,11 +20,11 @@
 namespace vigil {
 
 struct HubOptions {
-  std::size_t ring_bytes = 4u << 20;   ///< of encoded frames, each topic
-  std::size_t ring_frames = 1024;      ///< raw frames kept for a run (bounded by ring_bytes too)
-  std::size_t marks = 10'000;          ///< newest marks kept for a run
-  std::size_t viewers = 2000;          ///< over this: busy
-  double frames_per_second = 60;       ///< a faster run is thinned
+  std::size_t ring_bytes = 4u << 20;  ///< of encoded frames, each topic
+  std::size_t ring_frames = 1024;     ///< raw frames kept for a run (bounded by ring_bytes too)
+  std::size_t marks = 10'000;         ///< newest marks kept for a run
+  std::size_t viewers = 2000;         ///< over this: busy
+  double frames_per_second = 60;      ///< a faster run is thinned
   std::chrono::milliseconds ping{10'000};
   /// Monotonic time; tests pass their own.
   std::function<std::chrono::nanoseconds()> clock;
@@ -36,7 +36,7 @@ struct HubTopic {
   std::vector<int> signals;
 };
 
-class Feed;    // one run's items, inside the hub
+class Feed;    // one run's items; see server/hub/feed.hpp
 class Viewer;  // one reader's position; see server/hub/viewer.hpp
 
 class Hub {
@@ -59,7 +59,7 @@ class Hub {
   void forget(std::int64_t run);
   /// Viewers of that run now (0 for unknown ones). Cheap: fit to be asked before every tick.
   std::size_t viewers(std::int64_t run) const;
-  std::size_t viewers() const;  ///< of everything, the global feed included
+  std::size_t viewers() const;                ///< of everything, the global feed included
   std::string epoch(std::int64_t run) const;  ///< "" for unknown ones
   /// The global feed: any event name (letters, digits, '_', '-') with JSON data.
   void publish(std::string_view event, const Json& data);
@@ -80,8 +80,8 @@ class Hub {
   void detach(const std::shared_ptr<Viewer>& viewer);
   /// Called by any publisher when there is something to collect, once until the next collect(). Must be quick.
   void set_waker(std::function<void()> waker);
-  /// Takes in what was published, and flushes thinned ticks that are due. Calls `ready` for every viewer that has something
-  /// to send. Returns how long to sleep at most until it must be called again.
+  /// Takes in what was published, and flushes thinned ticks that are due. Calls `ready` for every viewer that has
+  /// something to send. Returns how long to sleep at most until it must be called again.
   std::chrono::nanoseconds collect(const std::function<void(Viewer&)>& ready);
 
  private:
