@@ -64,6 +64,7 @@ class Statement {
   void reset();
 
   bool null(int column) const;
+  int type(int column) const { return sqlite3_column_type(statement_, column); }
   std::int64_t integer(int column) const;
   double real(int column) const;  ///< NULL is NaN
   std::string text(int column) const;

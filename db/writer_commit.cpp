@@ -1,4 +1,6 @@
 /// One round becomes one transaction, tried again until the disk takes it.
+#include <utility>
+
 #include "db/writer_state.hpp"
 
 namespace vigil {
@@ -53,28 +55,33 @@ void LogWriter::State::write(Round& round) {
 }
 
 void LogWriter::State::commit(Round& round) {
+  bool stripped = false;
   for (auto length = 100ms;; length = std::min(2 * length, std::chrono::milliseconds(1000))) {
     std::string why;
+    bool disk = true;
     try {
       write(round);
       break;
     } catch (const SqlError& error) {
       why = error.what();
-      if (!error.disk()) {
-        // Not the disk's fault: the samples of this round can never be stored, everything else still can.
-        round.sealed.clear();
-        round.tail.clear();
-        round.newest.clear();
-        round.gaps.clear();
-        set_trouble("Samples of the log " + path + " were lost: " + why + ".");
-        continue;
-      }
+      disk = error.disk();
     }
     const LogError failure(LogError::Kind::disk, "The log " + path + " cannot be written: " + why + ".");
     set_trouble(failure.what());
-    if (pause(round, length, failure)) return;
+    if (disk) {
+      if (pause(round, length, failure)) return;
+    } else if (std::exchange(stripped, true)) {
+      for (auto& job : round.jobs) deliver(job, std::make_exception_ptr(failure));
+      return;
+    } else {
+      // Not the disk's fault: the samples of this round can never be stored, the jobs perhaps can.
+      round.sealed.clear();
+      round.tail.clear();
+      round.newest.clear();
+      round.gaps.clear();
+    }
   }
-  set_trouble({});
+  if (!stripped) set_trouble({});
   for (auto& job : round.jobs) deliver(job, job.error);
 }
 

@@ -105,7 +105,7 @@ void LogWriter::State::loop() {
   bool hurry = false;
   for (bool stopping = false; !stopping;) {
     stopping = wait_for_work(hurry);
-    Round round = gather(stopping || Steady::now() >= tail_due_);
+    Round round = gather(stopping || Steady::now() >= tail_due_, stopping);
     if (stopping) seal_everything(round);
     const bool jobs = !round.jobs.empty();
     if (!round.empty()) commit(round);
@@ -121,7 +121,7 @@ bool LogWriter::State::wait_for_work(bool hurry) {
   return stop;
 }
 
-Round LogWriter::State::gather(bool with_tail) {
+Round LogWriter::State::gather(bool with_tail, bool everything) {
   Round round;
   {
     const std::scoped_lock guard(mutex);
@@ -132,7 +132,6 @@ Round LogWriter::State::gather(bool with_tail) {
     const std::shared_lock guard(runs_mutex);
     open = runs;
   }
-  bool everything = with_tail && stop;
   for (const auto& job : round.jobs) everything = everything || job.everything || job.seals != 0;
   with_tail = with_tail || everything;
   if (with_tail) tail_due_ = Steady::now() + std::chrono::milliseconds(options.tail_milliseconds);

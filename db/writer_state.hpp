@@ -90,7 +90,7 @@ struct LogWriter::State {
   using Steady = std::chrono::steady_clock;
   void loop();
   bool wait_for_work(bool hurry);  ///< true: time to stop
-  Round gather(bool with_tail);
+  Round gather(bool with_tail, bool everything);
   void gather_run(RunId id, const std::shared_ptr<LoggedRun>& run, std::size_t most, bool with_tail, Round& round);
   void seal_everything(Round& round);
   void commit(Round& round);
