@@ -60,7 +60,7 @@ function checkItems(field: Field, value: Json): Fault | undefined {
 
 /** The first fault of a value for its field; undefined where the form can find none (the server has the last word). */
 export function check(field: Field, value: Json | undefined): Fault | undefined {
-  if (value === undefined) return field.default === undefined && !field.nullable ? { code: 'missing' } : undefined;
+  if (value === undefined) return field.required ? { code: 'missing' } : undefined;
   if (value === null) return field.nullable ? undefined : { code: 'missing' };
   switch (field.kind) {
     case 'number':

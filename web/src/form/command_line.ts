@@ -9,18 +9,17 @@ export function shellWord(text: string): string {
 
 export interface Line {
   text: string;
-  /** Changes that --set cannot say: members taken out of the preset. */
-  left: string[];
+  /** The changes go along as a file, because --set reaches only members that are there already. */
+  patchFile: boolean;
 }
 
-/** The command that runs the same on the command line: every change as --set PATH=JSON. */
+/** The command that runs the same on the command line: every change as --set PATH=JSON, or the patch as a file. */
 export function commandLine(id: string, preset: JsonObject, document: JsonObject, seed: number | undefined): Line {
   const words = ['vigil', 'run', shellWord(id)];
-  const left: string[] = [];
   if (seed !== undefined) words.push('--seed', String(seed));
-  for (const { path, to } of changes(preset, document)) {
-    if (to === undefined) left.push(path.join('.'));
-    else words.push('--set', shellWord(`${path.join('.')}=${JSON.stringify(to satisfies Json)}`));
-  }
-  return { text: words.join(' '), left };
+  const all = changes(preset, document);
+  const patchFile = all.some(({ from, to }) => from === undefined || to === undefined);
+  if (patchFile) words.push('--patch', 'changes.json');
+  else for (const { path, to } of all) words.push('--set', shellWord(`${path.join('.')}=${JSON.stringify(to satisfies Json | undefined)}`));
+  return { text: words.join(' '), patchFile };
 }

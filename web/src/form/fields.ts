@@ -23,7 +23,11 @@ export interface Field {
   /** Can be changed while a run goes on; undefined where the schema does not say. */
   live: boolean | undefined;
   nullable: boolean;
+  required: boolean;
+  /** Of a choice: all there are. Of a text: suggestions. */
   choices: Json[];
+  /** Words for choices, by the choice. */
+  labels: Record<string, Words>;
   minimum: number | undefined;
   maximum: number | undefined;
   exclusiveMinimum: number | undefined;
@@ -68,7 +72,7 @@ function arrayKind(schema: Schema, value: Json | undefined, root: Schema): Kind 
   if (sample && sample.length > 0) {
     if (numbers(sample)) return 'vector';
     if (sample.every((row) => numbers(row))) return 'matrix';
-    if (sample.every((item) => typeof item === 'string')) return 'list';
+    return sample.every((item) => typeof item === 'string') ? 'list' : 'json';
   }
   const item = typeof schema.items === 'object' ? resolve(schema.items, sample?.[0], root) : schema.prefixItems?.[0];
   const types = item ? typesOf(item) : [];
@@ -107,11 +111,27 @@ function columnsOf(schema: Schema, value: Json | undefined, root: Schema): numbe
   return Array.isArray(row) ? row.length : undefined;
 }
 
-function makeField(given: Schema, path: string[], value: Json | undefined, root: Schema): Field {
+/** Names to choose from where another text may stand as well: then the names are suggestions. */
+function suggestionsOf(given: Schema, root: Schema): Json[] {
+  const branches = (follow(given, root).anyOf ?? []).map((part) => follow(part, root));
+  const isOpen = branches.some((part) => typesOf(part).includes('string') && !part.enum && part.const === undefined);
+  return isOpen ? branches.flatMap((part) => part.enum ?? []) : [];
+}
+
+function labelsOf(schema: Schema): Record<string, Words> {
+  const labels: Record<string, Words> = {};
+  for (const [choice, words] of Object.entries(schema['x-labels'] ?? {})) {
+    if (isObject(words) && typeof words.en === 'string') labels[choice] = { en: words.en, zh: typeof words.zh === 'string' ? words.zh : words.en };
+  }
+  return labels;
+}
+
+function makeField(given: Schema, path: string[], value: Json | undefined, root: Schema, required: boolean): Field {
   const schema = resolve(given, value, root);
+  const suggestions = suggestionsOf(given, root);
   const choices = choicesOf(given, root).length > 0 ? choicesOf(given, root) : choicesOf(schema, root);
   const name = path.at(-1) ?? '';
-  const kind = kindOf(schema, value, choices, root);
+  const kind = suggestions.length > 0 ? 'text' : kindOf(schema, value, choices, root);
   const range = kind === 'vector' && typeof schema.items === 'object' ? { ...follow(schema.items, root), ...schema } : schema;
   const fixed = kind === 'vector' && schema.prefixItems ? schema.prefixItems.length : undefined;
   return {
@@ -122,12 +142,14 @@ function makeField(given: Schema, path: string[], value: Json | undefined, root:
     source: schema['x-source'] ?? '',
     live: schema['x-live'],
     nullable: isNullable(given, root),
-    choices,
+    required,
+    choices: suggestions.length > 0 ? suggestions : choices,
+    labels: labelsOf(schema),
     minimum: range.minimum, maximum: range.maximum,
     exclusiveMinimum: range.exclusiveMinimum, exclusiveMaximum: range.exclusiveMaximum,
     minItems: schema.minItems ?? fixed, maxItems: schema.maxItems ?? fixed,
     columns: kind === 'matrix' ? columnsOf(schema, value ?? schema.default, root) : undefined,
-    pattern: schema.pattern,
+    pattern: suggestions.length > 0 ? undefined : schema.pattern,
     default: schema.default,
     value,
   };
@@ -177,7 +199,7 @@ export function makeSection(given: Schema, path: string[], value: Json | undefin
     if (isObjectLike(resolve(member, held[key], root), held[key])) {
       section.sections.push(makeSection(member, here, held[key], root));
     } else {
-      section.fields.push(makeField(member, here, held[key], root));
+      section.fields.push(makeField(member, here, held[key], root, schema.required?.includes(key) ?? false));
     }
   }
   return section;

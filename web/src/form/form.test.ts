@@ -16,8 +16,9 @@ const schema: Schema = {
     id: { type: 'string' },
     time: {
       type: 'object',
+      required: ['dt'],
       properties: {
-        dt: { type: 'number', exclusiveMinimum: 0, default: 1, 'x-unit': 's' },
+        dt: { type: 'number', exclusiveMinimum: 0, 'x-unit': 's' },
         steps: { anyOf: [{ type: 'integer', minimum: 1 }, { type: 'null' }], default: 30, description: 'Last tick', 'x-zh': '最后一步' },
       },
     },
@@ -28,7 +29,14 @@ const schema: Schema = {
         params: { type: 'object', properties: { kappa: { type: 'number', minimum: 0, maximum: 2, 'x-symbol': 'κ', default: 1 } } },
       },
     },
-    network: { type: 'object', properties: { graph: { enum: ['ladder', 'ring'] } } },
+    network: {
+      type: 'object',
+      properties: {
+        graph: { enum: ['ladder', 'ring'] },
+        open: { anyOf: [{ type: 'string', enum: ['ladder', 'ring'] }, { type: 'string', pattern: '^knn[1-9]$' }] },
+        edges: { type: 'array', items: { type: 'array', items: { type: ['string', 'integer'] } } },
+      },
+    },
     adversary: {
       type: 'object',
       additionalProperties: {
@@ -104,6 +112,15 @@ describe('form from schema', () => {
     expect(field(preset, '/time/steps')).toMatchObject({ kind: 'integer', nullable: true, minimum: 1 });
     expect(field(preset, '/plant/params/kappa').symbol).toBe('κ');
     expect(field(preset, '/network/graph')).toMatchObject({ kind: 'choice', choices: ['ladder', 'ring'] });
+  });
+
+  it('offers names where others may be typed, and leaves what it cannot draw as JSON', () => {
+    const open = field(preset, '/network/open');
+    expect(open).toMatchObject({ kind: 'text', choices: ['ladder', 'ring'] });
+    expect(check(open, 'knn3')).toBeUndefined();
+    expect(check(open, undefined)).toBeUndefined();
+    expect(field(set(preset, ['network', 'edges'], [['1', '2']]), '/network/edges').kind).toBe('json');
+    expect(field(set(preset, ['network', 'edges'], [[1, 2]]), '/network/edges').kind).toBe('matrix');
   });
 
   it('takes vector or matrix from what the document holds', () => {
@@ -186,6 +203,7 @@ describe('check', () => {
     expect(check(field(preset, '/time/steps'), 1.5)).toEqual({ code: 'integer' });
     expect(check(field(preset, '/time/steps'), null)).toBeUndefined();
     expect(check(dt, null)).toEqual({ code: 'missing' });
+    expect(check(dt, undefined)).toEqual({ code: 'missing' });
     expect(check(field(preset, '/network/graph'), 'star')).toMatchObject({ code: 'choice' });
   });
 
@@ -234,10 +252,15 @@ describe('pointers', () => {
 
 describe('command line and address', () => {
   it('says the changes as --set, quoted for the shell', () => {
-    const changed = set(remove(preset, 'lanes', 'isolated'), ['noise', 'Q'], [1, 2, 3]);
-    const line = commandLine('consensus', preset, changed, 4);
-    expect(line.text).toBe("vigil run consensus --seed 4 --set 'noise.Q=[1,2,3]'");
-    expect(line.left).toEqual(['lanes.isolated']);
+    const changed = set(set(preset, ['noise', 'Q'], [1, 2, 3]), ['time', 'steps'], null);
+    expect(commandLine('consensus', preset, changed, 4)).toEqual({
+      text: "vigil run consensus --seed 4 --set time.steps=null --set 'noise.Q=[1,2,3]'",
+      patchFile: false,
+    });
+    expect(commandLine('consensus', preset, remove(changed, 'lanes', 'isolated'), undefined)).toEqual({
+      text: 'vigil run consensus --patch changes.json',
+      patchFile: true,
+    });
     expect(shellWord("it's")).toBe(`'it'\\''s'`);
     expect(shellWord('a.b=0.02')).toBe('a.b=0.02');
   });
