@@ -1,7 +1,9 @@
 # One interface target carries what every target of ours compiles with.
 add_library(vigil_flags INTERFACE)
 target_include_directories(vigil_flags INTERFACE ${CMAKE_SOURCE_DIR})
-target_compile_options(vigil_flags INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion -Wshadow)
+target_compile_options(vigil_flags INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion -Wshadow
+                       -Wno-missing-field-initializers  # designated initialisers leave out what is free
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # gcc 12 is wrong about std::string and std::optional
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(vigil_flags INTERFACE -fpch-preprocess)
 endif()

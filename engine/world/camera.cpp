@@ -80,7 +80,7 @@ const Registration<SensorMake> registration({
          .meaning = {"Radians per unit of the heading state, as the plant's", "航向状态每单位对应的弧度，与对象一致"}},
         {.name = "compass", .type = ParamType::boolean, .fallback = false,
          .meaning = {"Also measures the heading (profile compass, not in the paper)", "同时测量航向（compass 配置，论文中没有）"}},
-        {.name = "R", .type = ParamType::matrix, .nullable = true, .unit = "px²", .symbol = "R",
+        {.name = "R", .type = ParamType::matrix, .unit = "px²", .nullable = true, .symbol = "R",
          .meaning = {"Covariance of the measurement noise; none given: the identity", "测量噪声协方差；未给出时为单位阵"}},
     }),
     [](const Params& params, const Plant& plant) -> std::shared_ptr<const Sensor> { return std::make_shared<Camera>(params, plant); },

@@ -1,0 +1,22 @@
+/// Covariances: checks on what a user gives, and square roots for sampling.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "engine/core/json.hpp"
+
+namespace vigil {
+
+enum class Definiteness { semidefinite, definite };
+
+/// Reads an n x n covariance from [[..]], a diagonal or a number, symmetrised. Throws InputError at `pointer` where it is not symmetric (to
+/// 1e-9 relative) or not positive (semi)definite.
+Eigen::MatrixXd read_covariance(const Json& value, int n, const std::string& pointer, Definiteness kind);
+/// Throws as read_covariance does; for matrices already read.
+void check_covariance(const Eigen::MatrixXd& matrix, const std::string& pointer, Definiteness kind);
+
+/// The symmetric square root of a positive semidefinite matrix: legal where a Cholesky factor is not.
+Eigen::MatrixXd symmetric_root(const Eigen::MatrixXd& matrix);
+
+}  // namespace vigil

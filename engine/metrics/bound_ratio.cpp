@@ -1,0 +1,45 @@
+#include "engine/metrics/bound_ratio.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vigil {
+
+void BoundRatio::add(const BoundRecord& record) {
+  states_ = record.states;
+  if (states_ == 0) return;
+  const auto n = static_cast<std::size_t>(states_);
+  const std::size_t cells = record.errors.size() / n;
+  while (counts_.size() < cells) {
+    counts_.push_back(0);
+    outer_.emplace_back(Eigen::MatrixXd::Zero(states_, states_));
+    bounds_.emplace_back(Eigen::MatrixXd::Zero(states_, states_));
+  }
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const Eigen::Map<const Eigen::VectorXd> e(record.errors.data() + cell * n, states_);
+    if (!e.allFinite()) continue;
+    outer_[cell] += e * e.transpose();
+    bounds_[cell] += Eigen::Map<const Eigen::MatrixXd>(record.bounds.data() + cell * n * n, states_, states_);
+    ++counts_[cell];
+  }
+}
+
+double BoundRatio::max() const {
+  double worst = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
+    if (counts_[cell] == 0) continue;
+    const double runs = static_cast<double>(counts_[cell]);
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(bounds_[cell] / runs);
+    if (cholesky.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    const Eigen::MatrixXd half = cholesky.matrixL().solve(outer_[cell] / runs);
+    const Eigen::MatrixXd ratio = cholesky.matrixL().solve(half.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (ratio + ratio.transpose()), Eigen::EigenvaluesOnly);
+    worst = std::fmax(worst, eigen.eigenvalues()[states_ - 1]);
+  }
+  return worst;
+}
+
+}  // namespace vigil

@@ -1,0 +1,108 @@
+#include "engine/metrics/lane_score.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+#include "engine/linalg/chi_square.hpp"
+
+namespace vigil {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// v' A^-1 v by Cholesky; NaN where A is not positive definite.
+double inverse_form(const double* a, const BoundedVector& v) {
+  const auto n = v.size();
+  const BoundedMatrix A = Eigen::Map<const Eigen::MatrixXd>(a, n, n);
+  const Eigen::LLT<BoundedMatrix> cholesky(A);
+  if (cholesky.info() != Eigen::Success) return kNone;
+  const BoundedVector whitened = cholesky.matrixL().solve(v);
+  return whitened.squaredNorm();
+}
+
+}  // namespace
+
+BoundedVector state_error(const Eigen::VectorXd& truth, const double* estimate, const std::vector<double>& periods) {
+  BoundedVector e(truth.size());
+  for (Eigen::Index c = 0; c < e.size(); ++c) e[c] = wrap(estimate[c] - truth[c], periods[static_cast<std::size_t>(c)]);
+  return e;
+}
+
+void LaneScore::Sum::add(double value) {
+  if (!std::isfinite(value)) return;
+  total += value;
+  ++count;
+}
+
+double LaneScore::Sum::mean() const { return count == 0 ? kNone : total / static_cast<double>(count); }
+
+LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs) : groups_(plant.errors()), outputs_(std::move(outputs)) {
+  for (const Component& component : plant.state()) periods_.push_back(component.period);
+  sums_.resize(outputs_.size() * groups_.size());
+  last_.resize(outputs_.size() * kWindow);
+}
+
+TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& truth, const Belief& belief) {
+  TickScore score;
+  const BoundedVector e = state_error(truth, belief.mean, periods_);
+  for (int g = 0; g < groups(); ++g) {
+    double square = 0;
+    for (const int c : groups_[static_cast<std::size_t>(g)].components) square += e[c] * e[c];
+    score.error[g] = std::sqrt(square);
+    if (k == 0) continue;
+    cell(output, g).add(square);
+    if (g == 0) {
+      Sum& slot = last_[static_cast<std::size_t>(output * kWindow + static_cast<int>(k % kWindow))];
+      slot = {};
+      slot.add(square);
+    }
+  }
+  score.nees = belief.covariance == nullptr ? kNone : inverse_form(belief.covariance, e);
+  score.nis = kNone;
+  if (belief.innovation != nullptr) {
+    const Eigen::Map<const Eigen::VectorXd> r(belief.innovation, belief.innovation_size);
+    score.nis = belief.innovation_covariance == nullptr ? r.squaredNorm() : inverse_form(belief.innovation_covariance, BoundedVector(r));
+  }
+  if (k > 0) {
+    nees_.add(score.nees);
+    nis_.add(score.nis);
+  }
+  return score;
+}
+
+void LaneScore::append_metrics(const std::string& lane, std::vector<MetricValue>& metrics) const {
+  const auto add = [&](const std::string& node, const std::string& name, double value) { metrics.push_back({lane, node, name, "", value, false}); };
+  for (int g = 0; g < groups(); ++g) {
+    Sum all;
+    for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) {
+      all.total += cell(o, g).total;
+      all.count += cell(o, g).count;
+    }
+    add("", "rmse_" + groups_[static_cast<std::size_t>(g)].name, std::sqrt(all.mean()));
+    if (g == 0) {
+      Sum recent;
+      for (const Sum& slot : last_) {
+        recent.total += slot.total;
+        recent.count += slot.count;
+      }
+      add("", "rmse_" + groups_[0].name + "_last10", std::sqrt(recent.mean()));
+    }
+  }
+  if (outputs_.size() > 1 || outputs_.front() != "fused") {
+    for (int g = 0; g < groups(); ++g) {
+      for (std::size_t o = 0; o < outputs_.size(); ++o) {
+        add(outputs_[o], "rmse_" + groups_[static_cast<std::size_t>(g)].name, std::sqrt(cell(static_cast<int>(o), g).mean()));
+      }
+    }
+  }
+  if (nees_.count > 0) add("", "nees_mean", nees_.mean());
+  if (nis_.count > 0) add("", "nis_mean", nis_.mean());
+}
+
+Json LaneScore::bounds(int channels) const {
+  const auto interval = [](int degrees) { return Json{chi_square_quantile(0.025, degrees), chi_square_quantile(0.975, degrees)}; };
+  return {{"nees_interval_95", interval(static_cast<int>(periods_.size()))}, {"nis_interval_95", interval(channels)}};
+}
+
+}  // namespace vigil

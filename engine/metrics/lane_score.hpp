@@ -1,0 +1,61 @@
+/// What a lane is worth: errors against the truth, consistency of its covariances. Alone sees the truth.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "engine/linalg/small.hpp"
+#include "engine/methods/method.hpp"
+#include "engine/run/run.hpp"
+#include "engine/world/plant.hpp"
+
+namespace vigil {
+
+/// What one output's belief is worth at one tick; NaN where it cannot be said.
+struct TickScore {
+  double error[4] = {};  ///< norm of the error in each of the plant's error groups
+  double nees = 0;       ///< e' P^-1 e over the whole state, angles wrapped
+  double nis = 0;        ///< r' S^-1 r
+};
+
+/// Sums over the ticks 1.. of one lane. A value: copies are forks.
+class LaneScore {
+ public:
+  static constexpr int kMaxGroups = 4;
+  static constexpr int kWindow = 10;  ///< ticks of rmse_position_last10
+
+  LaneScore() = default;
+  LaneScore(const Plant& plant, std::vector<std::string> outputs);
+
+  /// Judges one output; the truth may have NaN. Counts it unless k is 0.
+  TickScore judge(std::int64_t k, int output, const Eigen::VectorXd& truth, const Belief& belief);
+
+  /// rmse_<group> (whole lane and per output), rmse_<first group>_last10, nees_mean, nis_mean.
+  void append_metrics(const std::string& lane, std::vector<MetricValue>& metrics) const;
+  /// Chi-square intervals (95 %) of one NEES and one NIS, for the lane's design.
+  Json bounds(int channels) const;
+
+ private:
+  struct Sum {
+    double total = 0;
+    std::int64_t count = 0;
+    void add(double value);
+    double mean() const;
+  };
+  Sum& cell(int output, int group) { return sums_[static_cast<std::size_t>(output * groups() + group)]; }
+  const Sum& cell(int output, int group) const { return sums_[static_cast<std::size_t>(output * groups() + group)]; }
+  int groups() const { return static_cast<int>(groups_.size()); }
+
+  std::vector<ErrorGroup> groups_;
+  std::vector<double> periods_;
+  std::vector<std::string> outputs_;
+  std::vector<Sum> sums_;       ///< squared errors, outputs x groups
+  std::vector<Sum> last_;       ///< squared errors of the first group in the last ticks, outputs x kWindow
+  Sum nees_, nis_;
+};
+
+/// e = estimate - truth with angles wrapped.
+BoundedVector state_error(const Eigen::VectorXd& truth, const double* estimate, const std::vector<double>& periods);
+
+}  // namespace vigil

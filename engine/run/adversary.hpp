@@ -1,0 +1,78 @@
+/// The adversary of a run: its attacks with places and schedules, started by the document or by hand.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/adversary/attack.hpp"
+#include "engine/core/json.hpp"
+#include "engine/run/frame.hpp"
+#include "engine/world/graph.hpp"
+
+namespace vigil {
+
+class Adversary {
+ public:
+  Adversary() = default;
+  /// `document`: the scenario's "adversary". Links are those of `graph`, the graph the run starts with: a draw's index is the link's
+  /// place there, so that a later change of the graph moves no draw.
+  Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes, std::uint64_t seed, int message);
+  Adversary(const Adversary& other);
+  Adversary(Adversary&&) noexcept = default;
+  Adversary& operator=(Adversary&&) noexcept = default;
+
+  /// Decides tick k for every link and marks attacks that begin or end with it.
+  void act(std::int64_t k, LinkEffects& effects, Sink& sink);
+  /// What the document's attacks publish of their statistics, one a link. Attacks started by hand publish nothing.
+  std::vector<LinkRates> rates(const Graph& graph) const;
+
+  /// Changes a live parameter, or "enabled". Throws InputError with pointers under /adversary/<id>.
+  void retune(const std::string& id, const std::string& param, const Json& value);
+  /// A hand's attack {"id","type","on","from","to","params"}. Throws InputError with pointers under /attack.
+  void start(const Json& attack, std::int64_t k);
+  /// Throws InputError at /end_attack where no attack of that name goes on.
+  void end(const std::string& id, std::int64_t k);
+  bool has(const std::string& id) const;
+  std::string free_id() const;  ///< "a1", "a2", …: the next that is not taken
+
+ private:
+  struct Entry {
+    std::string id, type;
+    std::unique_ptr<Attack> attack;
+    Json params;
+    std::vector<int> links;
+    std::string place;  ///< for marks: "2-5", or "" for several
+    std::int64_t from = 1;
+    std::optional<std::int64_t> to;  ///< last tick it acts
+    bool enabled = true;
+    bool by_hand = false;
+    bool acting = false;
+  };
+  void add(const std::string& id, const Json& entry, bool by_hand, const std::string& pointer, std::int64_t now);
+  std::vector<int> places(const Json& on, const std::string& pointer) const;
+  std::unique_ptr<Attack> make(const std::string& type, const std::string& id, const Json& params, const std::string& pointer) const;
+  Entry* find(const std::string& id);
+
+  std::vector<Entry> entries_;
+  Graph graph_;
+  std::vector<std::string> nodes_;
+  std::uint64_t seed_ = 0;
+  int message_ = 0;
+};
+
+/// Runs `make` and puts `prefix` before the pointers of an InputError it throws.
+template <class Make>
+auto under(const std::string& prefix, Make&& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) problem.pointer = prefix + (problem.pointer == "/" ? "" : problem.pointer);
+    throw InputError(std::move(problems));
+  }
+}
+
+}  // namespace vigil

@@ -1,0 +1,117 @@
+#include "engine/run/run.hpp"
+
+#include <cmath>
+
+#include "engine/run/state.hpp"
+
+namespace vigil {
+
+Run::Run(const Scenario& scenario, RunOptions options) : state_(std::make_unique<State>(scenario, std::move(options))) {}
+Run::Run(const Run& other) : state_(std::make_unique<State>(*other.state_)) {}
+Run::Run(Run&& other) noexcept = default;
+Run& Run::operator=(Run other) noexcept {
+  state_ = std::move(other.state_);
+  return *this;
+}
+Run::~Run() = default;
+
+const Catalogue& Run::catalogue() const { return state_->catalogue; }
+const Scenario& Run::scenario() const { return state_->scenario; }
+std::uint64_t Run::seed() const { return state_->seed; }
+double Run::dt() const { return state_->dt; }
+std::optional<std::int64_t> Run::steps() const { return state_->last_tick; }
+std::int64_t Run::tick() const { return state_->k; }
+
+void Run::step(Sink& sink) {
+  if (!done()) state_->step(sink);
+}
+
+bool Run::done() const {
+  if (state_->last_tick && state_->k >= *state_->last_tick) return true;
+  if (state_->k < 0) return false;
+  for (const Lane& lane : state_->lanes) {
+    if (!lane.stopped()) return false;
+  }
+  return true;
+}
+
+Command Run::prepare(const Json& body) const {
+  Command command{state_->k + 1, body};
+  if (done()) throw InputError("", "the run has ended; nothing can be changed any more");
+  if (body.is_object() && body.contains("attack") && body["attack"].is_object() && !body["attack"].contains("id")) {
+    command.body["attack"]["id"] = state_->adversary.free_id();
+  }
+  State trial(*state_);  // a command that fails must leave the run as it was
+  trial.change(command, nullptr);
+  return command;
+}
+
+void Run::apply(const Command& command) { state_->pending.push_back(command); }
+
+std::vector<MetricValue> Run::metrics() const {
+  std::vector<MetricValue> metrics;
+  for (const Lane& lane : state_->lanes) {
+    lane.score().append_metrics(lane.id(), metrics);
+    for (const OwnMetric& own : lane.method().metrics()) {
+      metrics.push_back({lane.id(), own.output >= 0 ? lane.outputs()[static_cast<std::size_t>(own.output)] : "", own.name, "", own.value,
+                         own.boolean});
+    }
+    std::vector<FaultCount> faults;
+    lane.faults().append(lane.id(), lane.outputs(), faults);
+    double count = 0;
+    for (const FaultCount& fault : faults) count += static_cast<double>(fault.count);
+    metrics.push_back({lane.id(), "", "faults", "", count, false});
+  }
+  return metrics;
+}
+
+std::vector<FaultCount> Run::faults() const {
+  std::vector<FaultCount> faults;
+  for (const Lane& lane : state_->lanes) lane.faults().append(lane.id(), lane.outputs(), faults);
+  return faults;
+}
+
+std::vector<std::string> Run::warnings() const { return state_->warnings; }
+
+Json Run::design() const {
+  Json design = Json::object();
+  for (const Lane& lane : state_->lanes) {
+    Json mine = lane.method().design();
+    mine.update(lane.score().bounds(state_->sensors.front()->size()));
+    design[lane.id()] = std::move(mine);
+  }
+  return design;
+}
+
+Json Run::world() const {
+  const State& s = *state_;
+  Json world{{"nodes", Json::array()}, {"links", Json::array()}, {"lanes", Json::array()}, {"state", Json::array()}};
+  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+    const auto place = s.sensors[i]->position();
+    world["nodes"].push_back({{"id", s.nodes[i]}, {"position", place ? Json{(*place)[0], (*place)[1]} : Json(nullptr)}});
+  }
+  for (const Link& link : s.graph.links()) {
+    const std::string& from = s.nodes[static_cast<std::size_t>(link.from)];
+    const std::string& to = s.nodes[static_cast<std::size_t>(link.to)];
+    world["links"].push_back({{"id", from + "-" + to}, {"from", from}, {"to", to}});
+  }
+  for (const Lane& lane : s.lanes) world["lanes"].push_back({{"id", lane.id()}, {"method", lane.method_id()}, {"adversary", !lane.spared()}});
+  for (const Component& c : s.plant->state()) world["state"].push_back({{"name", c.name}, {"unit", c.unit}});
+  return world;
+}
+
+Json to_json(const MetricValue& metric) {
+  const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
+  Json value(nullptr);
+  if (std::isfinite(metric.value)) value = metric.boolean ? Json(metric.value != 0) : Json(metric.value);
+  return {{"lane", text(metric.lane)}, {"node", text(metric.node)}, {"name", metric.name}, {"variant", text(metric.variant)}, {"value", value}};
+}
+
+Json to_json(const FaultCount& fault) {
+  return {{"lane", fault.lane}, {"node", fault.node.empty() ? Json(nullptr) : Json(fault.node)},
+          {"code", fault.code}, {"first", fault.first},
+          {"last", fault.last}, {"count", fault.count},
+          {"stopped", fault.stopped}, {"detail", fault.detail}};
+}
+
+}  // namespace vigil

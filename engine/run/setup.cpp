@@ -1,0 +1,247 @@
+/// From a document, a seed and perhaps a trace to a run that can be stepped.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/linalg/covariance.hpp"
+#include "engine/linalg/small.hpp"
+#include "engine/run/recorded_lane.hpp"
+#include "engine/run/state.hpp"
+
+namespace vigil {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kRecordLimit = 40'000;  // cells (ticks x nodes) of a lane's bound record: enough for the papers, bounded for the rest
+
+template <class Make>
+const Entry<Make>& entry_of(const std::string& type, const std::string& pointer) {
+  const auto* entry = Registry<Make>::find(type);
+  if (entry == nullptr) throw InputError(pointer, fmt::format("there is no \"{}\" here", type));
+  return *entry;
+}
+
+Eigen::VectorXd read_vector(const Json& value, int size, const std::string& pointer) {
+  if (!value.is_array() || static_cast<int>(value.size()) != size) {
+    throw InputError(pointer, fmt::format("expected {} numbers, one a state", size));
+  }
+  Eigen::VectorXd vector(size);
+  for (int i = 0; i < size; ++i) {
+    const Json& item = value[static_cast<std::size_t>(i)];
+    if (!item.is_number()) throw InputError(fmt::format("{}/{}", pointer, i), "expected a number");
+    vector[i] = item.get<double>();
+  }
+  return vector;
+}
+
+int node_index(const Json& id, const std::vector<std::string>& nodes, const std::string& pointer) {
+  const std::string name = id.is_string() ? id.get<std::string>() : id.dump();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i] == name) return static_cast<int>(i);
+  }
+  throw InputError(pointer, fmt::format("there is no node \"{}\"", name));
+}
+
+}  // namespace
+
+Graph read_network(const Json& network, const std::vector<std::string>& nodes, const Eigen::Matrix2Xd& positions) {
+  const std::string name = network.value("graph", "none");
+  if (name != "edges") return make_graph(name, positions);
+  std::vector<std::pair<int, int>> edges;
+  const Json& list = network.at("edges");
+  for (std::size_t e = 0; e < list.size(); ++e) {
+    const std::string pointer = fmt::format("/network/edges/{}", e);
+    edges.emplace_back(node_index(list[e][0], nodes, pointer + "/0"), node_index(list[e][1], nodes, pointer + "/1"));
+  }
+  return {static_cast<int>(nodes.size()), edges};
+}
+
+Run::State::State(const Scenario& given, RunOptions options)
+    : scenario(given), seed(options.seed), trace(std::move(options.trace)), pending(std::move(options.commands)) {
+  const Json& document = scenario.document();
+  dt = document.at("time").at("dt").get<double>();
+  if (!document["time"]["steps"].is_null()) last_tick = document["time"]["steps"].get<std::int64_t>();
+  if (trace) check_trace(document);
+  set_world(document);
+  find_columns();
+  adversary = Adversary(document.value("adversary", Json::object()), base, nodes, seed, plant->states());
+  set_lanes(document);
+  if (trace) set_recorded_lanes();
+  declare_signals();
+}
+
+void Run::State::check_trace(const Json& /*document*/) {
+  if (trace->first_tick() != 0) {
+    throw InputError("/input/trace", fmt::format("the trace begins at tick {}; a run begins at 0", trace->first_tick()), "k = 0 in its first row");
+  }
+  if (trace->rows() > 1 && std::abs(trace->dt() - dt) > 1e-6 * dt) {
+    throw InputError("/time/dt", fmt::format("dt is {} s and the trace has {} s between its rows; they must be the same", dt, trace->dt()));
+  }
+  const std::int64_t end = trace->rows() - 1;
+  last_tick = last_tick ? std::min(*last_tick, end) : end;
+}
+
+void Run::State::set_world(const Json& document) {
+  const auto& plant_entry = entry_of<PlantMake>(document["plant"]["type"].get<std::string>(), "/plant/type");
+  plant = under("/plant/params", [&] { return plant_entry.make(Params(document["plant"]["params"]), dt); });
+  const int n = plant->states();
+  if (n > kMaxSmall) throw InputError("/plant", fmt::format("the plant has {} states; at most {} are supported", n, kMaxSmall));
+
+  const Json& node_documents = document["nodes"];
+  positions = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(node_documents.size()));
+  for (const auto& [id, node] : node_documents.items()) {
+    const Json& sensor = node["sensor"];
+    const std::string pointer = "/nodes/" + id + "/sensor";
+    Json params = sensor["params"];
+    if (trace && params.contains("position") && params["position"].is_null()) {  // a recording brings its survey in row 0
+      const int x = trace->find("node." + id + ".position.x"), y = trace->find("node." + id + ".position.y");
+      if (x >= 0 && y >= 0) params["position"] = {trace->at(0, x), trace->at(0, y)};
+    }
+    const auto& entry = entry_of<SensorMake>(sensor["type"].get<std::string>(), pointer + "/type");
+    auto made = under(pointer + "/params", [&] { return entry.make(Params(params), *plant); });
+    check_covariance(made->noise(), pointer + "/params/R", Definiteness::definite);
+    if (made->size() > kMaxSmall) throw InputError(pointer, fmt::format("a sensor has at most {} channels", kMaxSmall));
+    if (const auto place = made->position()) {
+      positions.col(static_cast<Eigen::Index>(nodes.size())) = *place;
+      placed = true;
+    }
+    R_root.push_back(symmetric_root(made->noise()));
+    sensor_noise.emplace_back(seed, "sensor." + id);
+    readings.emplace_back(Eigen::VectorXd::Constant(made->size(), kMissing));
+    sensors.push_back(std::move(made));
+    nodes.push_back(id);
+  }
+  base = read_network(document["network"], nodes, positions);
+  graph = base;
+  base_of.resize(base.links().size());
+  for (std::size_t l = 0; l < base_of.size(); ++l) base_of[l] = static_cast<int>(l);
+  if (!base.connected() && !base.links().empty()) warnings.emplace_back("the network is not connected: its parts never hear of each other");
+  effects.resize(n, static_cast<int>(base.links().size()));
+  process_noise = Draws(seed, "plant");
+  input = Eigen::VectorXd::Constant(plant->inputs(), kMissing);
+  noise = Eigen::VectorXd::Zero(n);
+  next_truth = Eigen::VectorXd::Zero(n);
+}
+
+Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::MatrixXd& P0) {
+  const int n = plant->states();
+  const Json given_truth = initial.value("truth", Json(nullptr));
+  truth = Eigen::VectorXd::Constant(n, trace ? kMissing : 0.0);
+  for (int c = 0; trace && c < n; ++c) truth[c] = trace->at(0, columns.truth[static_cast<std::size_t>(c)]);
+  const bool recorded = trace && truth.allFinite();
+  if (!given_truth.is_null() && !recorded) truth = read_vector(given_truth, n, "/initial/truth");
+
+  const Json estimates = initial.value("estimates", Json(nullptr));
+  Eigen::VectorXd centre = given_truth.is_null() ? truth : read_vector(given_truth, n, "/initial/truth");
+  if (!centre.allFinite() && !estimates.is_object()) {
+    throw InputError("/initial/truth", "the trace has no truth in its first row, so initial.truth or initial.estimates must be given");
+  }
+  const Eigen::MatrixXd root = symmetric_root(P0);
+  Eigen::MatrixXd result(n, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    if (estimates.is_object() && estimates.contains(nodes[i])) {
+      result.col(column) = read_vector(estimates[nodes[i]], n, "/initial/estimates/" + nodes[i]);
+      continue;
+    }
+    if (!centre.allFinite()) throw InputError("/initial/estimates", fmt::format("node \"{}\" has no initial estimate and the trace no truth", nodes[i]));
+    Eigen::VectorXd draw(n);
+    Draws(seed, "initial." + nodes[i]).normals(0, draw);
+    result.col(column) = centre;
+    if (!estimates.is_string()) result.col(column) += root * draw;  // "truth": exactly there
+  }
+  return result;
+}
+
+void Run::State::set_lanes(const Json& document) {
+  const int n = plant->states();
+  const Json& noise_document = document["noise"];
+  Knowledge knowledge;
+  knowledge.plant = plant;
+  knowledge.sensors = sensors;
+  knowledge.nodes = nodes;
+  knowledge.graph = graph;
+  knowledge.Q = read_covariance(noise_document.at("Q"), n, "/noise/Q", Definiteness::semidefinite);
+  knowledge.P0 = read_covariance(noise_document.at("P0"), n, "/noise/P0", Definiteness::semidefinite);
+  Q_root = symmetric_root(knowledge.Q);
+  knowledge.estimates = initial_estimates(document.value("initial", Json::object()), knowledge.P0);
+  const std::vector<LinkRates> published = adversary.rates(graph);
+  for (const auto& [id, lane] : document["lanes"].items()) {
+    if (!lane.value("enabled", true)) continue;
+    const std::string pointer = "/lanes/" + id;
+    const bool spared = !lane.value("adversary", true);
+    knowledge.rates = spared ? std::vector<LinkRates>(published.size()) : published;
+    const std::string method = lane["method"].get<std::string>();
+    const auto& entry = entry_of<MethodMake>(method, pointer + "/method");
+    auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
+    lanes.emplace_back(id, method, spared, std::move(made), lane["params"], *plant, graph);
+  }
+  if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");
+}
+
+void Run::State::set_recorded_lanes() {
+  for (auto& recorded : find_recorded_lanes(trace, scenario.document()["lanes"], *plant)) {
+    std::string id = recorded.lane;
+    lanes.emplace_back(std::move(id), "recorded", true, std::move(recorded.method), Json::object(), *plant, graph);
+  }
+}
+
+void Run::State::find_columns() {
+  const auto find = [&](const std::string& name) { return trace ? trace->find(name) : -1; };
+  for (const Component& c : plant->state()) columns.truth.push_back(find("truth." + c.name));
+  for (const Component& c : plant->input()) columns.input.push_back(find("input." + c.name));
+  bool any = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    columns.sensor.emplace_back();
+    for (const Component& c : sensors[i]->channels()) {
+      columns.sensor.back().push_back(find("sensor." + nodes[i] + "." + c.name));
+      any = any || columns.sensor.back().back() >= 0;
+    }
+  }
+  for (const Link& link : base.links()) {
+    const std::string name = "link." + nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
+    columns.link_state.push_back(find(name + ".state"));
+    columns.injected.emplace_back();
+    for (const Component& c : plant->state()) columns.injected.back().push_back(find(name + ".injected." + c.name));
+  }
+  if (!trace) {
+    if (plant->inputs() > 0) {
+      throw InputError("/plant/type", "this plant is driven by a recorded input, so the run needs a trace (--trace FILE, or \"input\":{\"trace\":id})");
+    }
+    return;
+  }
+  if (!any) throw InputError("/input/trace", "the trace has no column sensor.<node>.<channel> of this scenario's nodes");
+  for (std::size_t c = 0; c < columns.input.size(); ++c) {
+    if (columns.input[c] < 0) throw InputError("/input/trace", "the trace has no column input." + plant->input()[c].name + ", which the plant needs");
+  }
+}
+
+void Run::State::declare_signals() {
+  const auto add = [&](const std::string& name, const std::string& unit, SignalKind kind, const std::string& node, const std::string& link) {
+    Signal signal{.name = name, .unit = unit, .kind = kind, .node = node, .link = link};
+    if (kind == SignalKind::category) signal.labels = {{0, "clean"}, {1, "DoS"}, {2, "FDI"}, {3, "replay"}};
+    return catalogue.add(std::move(signal));
+  };
+  slots.truth = catalogue.size();
+  for (const Component& c : plant->state()) add("truth." + c.name, c.unit, SignalKind::scalar, "", "");
+  slots.input = catalogue.size();
+  for (const Component& c : plant->input()) add("input." + c.name, c.unit, SignalKind::scalar, "", "");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    slots.sensor.push_back(catalogue.size());
+    for (const Component& c : sensors[i]->channels()) add("sensor." + nodes[i] + "." + c.name, c.unit, SignalKind::scalar, nodes[i], "");
+  }
+  for (const Link& link : base.links()) {
+    const std::string id = nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
+    slots.link.push_back(add("link." + id + ".state", "", SignalKind::category, "", id));
+    for (const Component& c : plant->state()) add("link." + id + ".injected." + c.name, c.unit, SignalKind::scalar, "", id);
+    add("link." + id + ".strength", "", SignalKind::scalar, "", id);
+  }
+  for (Lane& lane : lanes) lane.declare(*plant, catalogue);
+  frame.values.assign(static_cast<std::size_t>(catalogue.size()), kMissing);
+  if (last_tick && *last_tick * static_cast<std::int64_t>(nodes.size()) <= kRecordLimit) {
+    for (Lane& lane : lanes) lane.record_bounds();
+  }
+}
+
+}  // namespace vigil

@@ -1,0 +1,101 @@
+/// The state of a run: a value. Setting it up, stepping it and changing it live in files of their own.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/random/draws.hpp"
+#include "engine/run/adversary.hpp"
+#include "engine/run/lane.hpp"
+#include "engine/run/run.hpp"
+#include "engine/run/trace.hpp"
+#include "engine/world/graph.hpp"
+
+namespace vigil {
+
+/// Where a trace's columns stand, -1: not there.
+struct TraceColumns {
+  std::vector<int> truth, input;
+  std::vector<std::vector<int>> sensor;    ///< node, channel
+  std::vector<int> link_state;             ///< base link
+  std::vector<std::vector<int>> injected;  ///< base link, component
+};
+
+/// Ids of the world's signals.
+struct WorldSlots {
+  int truth = 0, input = 0;
+  std::vector<int> sensor;  ///< first channel, one a node
+  std::vector<int> link;    ///< state, then injected components, then strength; one a base link
+};
+
+struct Run::State {
+  State(const Scenario& scenario, RunOptions options);
+
+  void step(Sink& sink);
+  void change(const Command& command, Sink* sink);
+
+  Scenario scenario;
+  std::uint64_t seed;
+  std::shared_ptr<const Trace> trace;
+  double dt = 1;
+  std::optional<std::int64_t> last_tick;
+  std::vector<Command> pending;  ///< in the order they were given; applied before their tick
+
+  std::shared_ptr<const Plant> plant;
+  std::vector<std::string> nodes;
+  std::vector<std::shared_ptr<const Sensor>> sensors;
+  Eigen::Matrix2Xd positions;
+  bool placed = false;  ///< some sensor has a position
+  Graph base;           ///< the graph the run started with: its links are the catalogue's
+  Graph graph;          ///< as it is now
+  std::vector<int> base_of;  ///< link of `graph` -> link of `base`
+  Eigen::MatrixXd Q_root;
+  std::vector<Eigen::MatrixXd> R_root;
+  Draws process_noise;
+  std::vector<Draws> sensor_noise;
+
+  Adversary adversary;
+  std::vector<Lane> lanes;
+  std::vector<std::string> warnings;
+
+  Catalogue catalogue;
+  WorldSlots slots;
+  TraceColumns columns;
+
+  std::int64_t k = -1;
+  Eigen::VectorXd truth, next_truth, input, noise;
+  Readings readings;
+  LinkEffects effects;
+  Frame frame;
+
+ private:
+  void set_world(const Json& document);
+  void set_lanes(const Json& document);
+  void set_recorded_lanes();
+  void find_columns();
+  void declare_signals();
+  void check_trace(const Json& document);
+  Eigen::MatrixXd initial_estimates(const Json& document, const Eigen::MatrixXd& P0);
+
+  void advance_world();
+  void sense();
+  void override_links();
+  void publish_world();
+
+  void set_params(const Json& params);
+  void set_param(const std::string& path, const Json& value);
+  void set_graph(const Json& value);
+  void rewire_lanes();
+};
+
+/// The campaign's way in: runs with records of bounds.
+struct TrialAccess {
+  static Run::State& state(Run& run) { return *run.state_; }
+};
+
+/// The node positions' graph as the document's "network" says: {"graph":name} or {"graph":"edges","edges":[[1,2],…]}.
+Graph read_network(const Json& network, const std::vector<std::string>& nodes, const Eigen::Matrix2Xd& positions);
+
+}  // namespace vigil
