@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<std::string_view, 8> kPlain = {"id",       "created", "started", "ended",
                                                     "scenario", "family",  "state",   "seed"};
 
-std::string bind(std::vector<Query::Value>& values, Query::Value value) {
+std::string parameter(std::vector<Query::Value>& values, Query::Value value) {
   values.push_back(std::move(value));
   return "?" + std::to_string(values.size());
 }
@@ -52,8 +52,8 @@ std::string metric_key(const std::string& field, std::vector<Query::Value>& valu
   }
   const std::string lane = field.substr(0, dot);
   std::string sql = "(SELECT min(value) FROM metric WHERE metric.run=run.id AND metric.node='' AND metric.name=" +
-                    bind(values, field.substr(dot + 1));
-  if (lane != "metrics") sql += " AND metric.lane=" + bind(values, lane);
+                    parameter(values, field.substr(dot + 1));
+  if (lane != "metrics") sql += " AND metric.lane=" + parameter(values, lane);
   return sql + ")";
 }
 
@@ -74,7 +74,7 @@ void RunOrder::read_cursor(std::string_view cursor, std::vector<Query::Value>& v
                      (read[1].is_null() || read[1].is_number() || read[1].is_string());
   if (!sound) throw QueryError(0, "this cursor does not belong to this list; start again without one.");
   const std::string beyond = falling_ ? "<" : ">";
-  const std::string id = bind(values, read[2].get<std::int64_t>());
+  const std::string id = parameter(values, read[2].get<std::int64_t>());
   const std::string later = "run.id" + beyond + id;
   if (read[1].is_null()) {
     after_ = "(" + key_ + " IS NULL AND " + later + ")";
@@ -88,7 +88,7 @@ void RunOrder::read_cursor(std::string_view cursor, std::vector<Query::Value>& v
   } else {
     value = read[1].get<double>();
   }
-  const std::string place = bind(values, value);
+  const std::string place = parameter(values, value);
   after_ = "(" + key_ + beyond + place + " OR (" + key_ + "=" + place + " AND " + later + ") OR " + key_ + " IS NULL)";
 }
 
