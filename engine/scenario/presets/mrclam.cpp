@@ -14,7 +14,7 @@ Json nodes() {
 }
 
 Json lanes() {
-  const Json filter = {{"mode", "filter"}, {"tau", 0.01}, {"sigma", 0.1},    {"beta", 0.1}, {"eps", nullptr},
+  const Json filter = {{"mode", "filter"}, {"tau", 0.02}, {"sigma", 0.1},    {"beta", 0.1}, {"eps", nullptr},
                        {"U", 0.01},        {"V", 0.01},   {"guard", "clip"}, {"rho", 0.9},  {"bound", "paper"}};
   Json result = Json::object();
   result["consensus"] = {{"method", "consensus_ekf"}, {"params", filter}};
@@ -38,7 +38,7 @@ Json mrclam() {
           {"plant", {{"type", "unicycle"}}},
           {"nodes", nodes()},
           {"network", {{"graph", "knn3"}}},
-          {"noise", {{"Q", {0.0001, 0.0001, 0.0004}}, {"P0", {0.01, 0.01, 0.01}}}},
+          {"noise", {{"Q", {6.25e-6, 6.25e-6, 4e-4}}, {"P0", {0.01, 0.01, 0.01}}}},
           {"initial", {{"estimates", "truth"}}},
           {"adversary",
            {{"links",
