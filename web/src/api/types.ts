@@ -64,6 +64,8 @@ export interface RunItem {
   epoch: string;
   parent: { run: string; k: number } | null;
   viewers: number;
+  /** Running, but waiting for somebody who watches. */
+  idle?: boolean;
   metrics: Metric[];
   faults: FaultCount[];
   warnings: string[];
@@ -105,6 +107,8 @@ export interface Signal {
   node?: string | null;
   link?: string | null;
   labels?: Record<string, string>;
+  /** Whether the log keeps it. */
+  logged?: boolean;
 }
 
 export type MarkType = 'attack' | 'alarm' | 'fault' | 'command' | 'state' | 'note';
@@ -128,6 +132,10 @@ export type SampleSeries =
 export interface Samples {
   k: number[];
   series: SampleSeries[];
+  /** s, of each k */
+  t?: (number | null)[];
+  /** Ticks that the log does not have. */
+  gaps?: { from: number; to: number }[];
 }
 
 export interface Page<T> {

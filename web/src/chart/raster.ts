@@ -8,19 +8,21 @@ export interface RasterRow {
   label: string;
   series: Series;
   /** Colour token and letter of a value; null: leave the cell empty. */
-  cell: (value: number) => { token: string; letter?: string } | null;
+  cell: (value: number) => { token: string; letter?: string; letterToken?: string } | null;
+  /** Where a column holds several ticks the least value stands for it, not the greatest: one failure must show. */
+  least?: boolean;
   /** Share of the row's height, from its top: a row can be a thin stripe. */
   weight?: number;
 }
 
 /**
- * Column of every cell for a window of `columns` columns from tick `from`: where a column holds several ticks the greatest
- * value stands for it. NaN: nothing known. `width` is ticks per column.
+ * One value a column for a window of `columns` columns from tick `from`: where a column holds several ticks the greatest
+ * (or least) value stands for it. NaN: nothing known. `width` is ticks per column.
  */
-export function columnsOf(series: Series, from: number, width: number, columns: number): Float32Array {
+export function columnsOf(series: Series, from: number, width: number, columns: number, least = false): Float32Array {
   const out = new Float32Array(columns).fill(NaN);
   for (let i = 0; i < series.k.length; i++) {
-    const value = series.hi[i]!;
+    const value = least ? series.lo[i]! : series.hi[i]!;
     if (Number.isNaN(value)) continue;
     const next = series.k[i + 1];
     const first = Math.floor((series.k[i]! - from) / width);
@@ -28,7 +30,7 @@ export function columnsOf(series: Series, from: number, width: number, columns: 
     const last = next !== undefined && series.joined[i + 1] && series.lo !== series.hi ? Math.ceil((next - from) / width) - 1 : first;
     for (let c = Math.max(0, first); c <= Math.min(columns - 1, Math.max(first, last)); c++) {
       const known = out[c]!;
-      if (Number.isNaN(known) || value > known) out[c] = value;
+      if (Number.isNaN(known) || (least ? value < known : value > known)) out[c] = value;
     }
   }
   return out;
@@ -55,7 +57,7 @@ export function drawRaster(context: CanvasRenderingContext2D, g: Geometry, rows:
   const image = inner.createImageData(columns, rows.length);
   const pixels = new Uint32Array(image.data.buffer);
   const tokens = new Map<string, number>();
-  const cells = rows.map((row) => columnsOf(row.series, from, per, columns));
+  const cells = rows.map((row) => columnsOf(row.series, from, per, columns, row.least));
   rows.forEach((row, r) => {
     for (let c = 0; c < columns; c++) {
       const value = cells[r]![c]!;
@@ -110,7 +112,6 @@ function letters(
   cellWidth: number,
   columns: number,
 ): void {
-  context.fillStyle = colour('surface');
   context.textAlign = 'center';
   context.textBaseline = 'middle';
   rows.forEach((row, r) => {
@@ -119,8 +120,10 @@ function letters(
     context.font = `600 ${Math.min(11, span.height - 0.5)}px 'IBM Plex Mono', monospace`;
     for (let c = 0; c < columns; c++) {
       const value = cells[r]![c]!;
-      const letter = Number.isNaN(value) ? undefined : row.cell(value)?.letter;
-      if (letter) context.fillText(letter, left + (c + 0.5) * cellWidth, span.y + span.height / 2 + 0.5);
+      const cell = Number.isNaN(value) ? null : row.cell(value);
+      if (!cell?.letter) continue;
+      context.fillStyle = colour(cell.letterToken ?? 'surface');
+      context.fillText(cell.letter, left + (c + 0.5) * cellWidth, span.y + span.height / 2 + 0.5);
     }
   });
 }

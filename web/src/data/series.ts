@@ -38,12 +38,15 @@ export function usualStep(k: ArrayLike<number>): number {
   return steps[steps.length >> 1]!;
 }
 
-/** The server's answer as series by signal name. Ticks further apart than usual are not joined. */
+/** The server's answer as series by signal name. Ticks further apart than usual, or with a gap between them, are not joined. */
 export function samplesSeries(samples: Samples): Map<string, Series> {
   const k = Float64Array.from(samples.k);
   const step = usualStep(k);
   const joined = new Uint8Array(k.length);
-  for (let i = 1; i < k.length; i++) joined[i] = k[i]! - k[i - 1]! <= 1.5 * step ? 1 : 0;
+  for (let i = 1; i < k.length; i++) {
+    const lost = samples.gaps?.some((gap) => gap.from <= k[i]! && gap.to > k[i - 1]!);
+    joined[i] = k[i]! - k[i - 1]! <= 1.5 * step && !lost ? 1 : 0;
+  }
   const result = new Map<string, Series>();
   for (const one of samples.series) {
     const lo = numbers('v' in one ? one.v : one.lo);

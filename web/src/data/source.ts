@@ -9,7 +9,7 @@ import { concatSeries, emptySeries, ringSeries, samplesSeries, type Series } fro
 
 /** Points asked of the server for a window: about one a pixel of a wide screen. */
 export const windowPoints = 1200;
-const namesPerCall = 40;
+const signalsPerCall = 200;
 const refreshMs = 1000;
 const forgetMs = 3000;
 
@@ -85,6 +85,11 @@ export class Source {
     return older.k.length && older.k[0]! < (newer.k[0] ?? Infinity) ? concatSeries(before(older, newer.k[0] ?? Infinity), newer) : newer;
   }
 
+  /** Ids keep the address short. */
+  private idsOf(names: readonly string[]): string {
+    return names.map((name) => this.byName.get(name)?.id ?? name).join(',');
+  }
+
   private want(name: string, from: number, to: number, until: number): void {
     this.wanted.set(name, this.now());
     if (to < from) return;
@@ -115,13 +120,14 @@ export class Source {
     try {
       const series = new Map<string, Series>();
       let raw = true;
-      for (let i = 0; i < names.length; i += namesPerCall) {
-        const samples = await this.fetchSamples({ signals: names.slice(i, i + namesPerCall).join(','), from, to, points: windowPoints }, this.abort.signal);
+      for (let i = 0; i < names.length; i += signalsPerCall) {
+        const part = names.slice(i, i + signalsPerCall);
+        const samples = await this.fetchSamples({ signals: this.idsOf(part), from, to, points: windowPoints }, this.abort.signal);
         for (const [name, one] of samplesSeries(samples)) {
           series.set(name, one);
           raw &&= one.lo === one.hi;
         }
-        for (const name of names.slice(i, i + namesPerCall)) if (!series.has(name)) series.set(name, emptySeries);
+        for (const name of part) if (!series.has(name)) series.set(name, emptySeries);
       }
       this.table = { from, to, raw, series };
       this.failure = null;
@@ -139,9 +145,9 @@ export class Source {
   async rows(ring: Ring, from: number, to: number): Promise<Frame[]> {
     const names = ring.signals.map((id) => this.signals[id]?.name ?? '');
     const calls: string[][] = [];
-    for (let i = 0; i < names.length; i += namesPerCall) calls.push(names.slice(i, i + namesPerCall));
+    for (let i = 0; i < names.length; i += signalsPerCall) calls.push(names.slice(i, i + signalsPerCall));
     const abort = new AbortController();
-    const parts = await Promise.all(calls.map((part) => this.fetchSamples({ signals: part.join(','), from, to, points: to - from + 2 }, abort.signal)));
+    const parts = await Promise.all(calls.map((part) => this.fetchSamples({ signals: this.idsOf(part), from, to, points: to - from + 2 }, abort.signal)));
     return framesOf(parts, calls, names.length);
   }
 }

@@ -1,0 +1,47 @@
+import type { Mark, MarkType } from '../../api/types';
+
+const types: readonly MarkType[] = ['attack', 'alarm', 'fault', 'command', 'state', 'note'];
+const most = 5000;
+
+/** Whether something read from the wire is a mark that can be drawn. */
+export function isMark(value: unknown): value is Mark {
+  if (typeof value !== 'object' || value === null) return false;
+  const mark = value as Partial<Mark>;
+  return typeof mark.k === 'number' && types.includes(mark.type as MarkType) && (mark.edge === null || mark.edge === undefined || mark.edge === 'begin' || mark.edge === 'end');
+}
+
+function key(mark: Mark): string {
+  return [mark.k, mark.type, mark.edge ?? '', mark.id ?? '', mark.lane ?? '', mark.node ?? '', mark.link ?? '', mark.code ?? '', mark.detail ?? ''].join('|');
+}
+
+/** Both lists as one, by tick, none twice; the newest few thousand. */
+export function mergeMarks(a: readonly Mark[], b: readonly Mark[]): Mark[] {
+  const seen = new Set<string>();
+  const all: Mark[] = [];
+  for (const mark of [...a, ...b]) {
+    if (!isMark(mark)) continue;
+    const name = key(mark);
+    if (seen.has(name)) continue;
+    seen.add(name);
+    all.push(mark);
+  }
+  return all.sort((x, y) => x.k - y.k).slice(-most);
+}
+
+/** Attacks that began and did not end yet, by id. */
+export function activeAttacks(marks: readonly Mark[]): Mark[] {
+  const active = new Map<string, Mark>();
+  for (const mark of marks) {
+    if (mark.type !== 'attack' || !mark.id) continue;
+    if (mark.edge === 'end') active.delete(mark.id);
+    else if (!active.has(mark.id)) active.set(mark.id, mark);
+  }
+  return [...active.values()];
+}
+
+/** The mark before (-1) or after (+1) a tick, of those a person steps through. */
+export function neighbour(marks: readonly Mark[], k: number, way: -1 | 1): Mark | null {
+  if (way > 0) return marks.find((mark) => mark.k > k) ?? null;
+  for (let i = marks.length - 1; i >= 0; i--) if (marks[i]!.k < k) return marks[i]!;
+  return null;
+}
