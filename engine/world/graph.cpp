@@ -77,9 +77,10 @@ void need_positions(std::string_view name, const Eigen::Matrix2Xd& positions) {
 Edges nearest_neighbours(int wanted, const Eigen::Matrix2Xd& positions) {
   const auto nodes = static_cast<int>(positions.cols());
   if (wanted >= nodes) {
-    refuse("knn" + std::to_string(wanted) + " needs more than " + std::to_string(wanted) + " nodes; the scenario has " +
-               std::to_string(nodes),
-           "knn1 to knn" + std::to_string(std::max(1, nodes - 1)));
+    const std::string most = "knn1 to knn" + std::to_string(std::max(1, nodes - 1));
+    refuse("knn" + std::to_string(wanted) + " needs " + std::to_string(wanted) + " other nodes; the scenario has " +
+               std::to_string(nodes) + " nodes, expected " + most,
+           most);
   }
   Edges edges;
   for (int i = 0; i < nodes; ++i) {
