@@ -10,7 +10,8 @@ namespace vigil {
 namespace {
 
 TEST(InputError, SaysFieldAndHowManyMore) {
-  EXPECT_STREQ(InputError("/time/dt", "dt is 0; expected a number > 0").what(), "/time/dt: dt is 0; expected a number > 0");
+  EXPECT_STREQ(InputError("/time/dt", "dt is 0; expected a number > 0").what(),
+               "/time/dt: dt is 0; expected a number > 0");
   EXPECT_STREQ(InputError("", "the document is 3; expected an object").what(), "the document is 3; expected an object");
   const std::vector<Problem> three{{"/a", "one", ""}, {"/b", "two", ""}, {"/c", "three", ""}};
   EXPECT_STREQ(InputError(three).what(), "/a: one (and 2 more problems)");

@@ -9,8 +9,19 @@ namespace {
 
 const ParamTable& table() {
   static const ParamTable params(std::vector<Param>{
-      {.name = "tau", .fallback = 0.01, .unit = "cm", .minimum = 0, .live = true, .symbol = "τ", .meaning = {"Strength", "强度"}},
-      {.name = "rho", .fallback = 0.9, .minimum = 0, .maximum = 1, .exclusive_minimum = true, .exclusive_maximum = true},
+      {.name = "tau",
+       .fallback = 0.01,
+       .unit = "cm",
+       .minimum = 0,
+       .live = true,
+       .symbol = "τ",
+       .meaning = {"Strength", "强度"}},
+      {.name = "rho",
+       .fallback = 0.9,
+       .minimum = 0,
+       .maximum = 1,
+       .exclusive_minimum = true,
+       .exclusive_maximum = true},
       {.name = "window", .type = ParamType::integer, .fallback = 3, .minimum = 1},
       {.name = "compass", .type = ParamType::boolean, .fallback = false},
       {.name = "guard", .type = ParamType::text, .fallback = "clip", .choices = {"clip", "strict", "none"}},
@@ -64,8 +75,9 @@ TEST(Params, FillsInDefaultsInTheTablesOrder) {
   const Json given = {{"position", {1, 2}}, {"tau", 5}, {"window", 4.0}};
   const Json done = table().complete(given, "", problems);
   EXPECT_TRUE(problems.empty());
-  EXPECT_EQ(done.dump(),
-            R"({"tau":5,"rho":0.9,"window":4,"compass":false,"guard":"clip","position":[1,2],"xi":[1,2,3],"R":1,"eps":null})");
+  EXPECT_EQ(
+      done.dump(),
+      R"({"tau":5,"rho":0.9,"window":4,"compass":false,"guard":"clip","position":[1,2],"xi":[1,2,3],"R":1,"eps":null})");
 }
 
 TEST(Params, FindsEveryProblemAtOnce) {
@@ -110,7 +122,8 @@ TEST(SquareMatrix, TakesRowsDiagonalOrNumber) {
 }
 
 TEST(SquareMatrix, RefusesWhatDoesNotFit) {
-  for (const char* text : {"[1,2,3]", "[[1,2],[3]]", "[[1,2]]", "\"I\"", "null", "[[1,2],3]", "[1,[2,3]]", "[[1,\"a\"],[2,3]]", "{}"}) {
+  for (const char* text :
+       {"[1,2,3]", "[[1,2],[3]]", "[[1,2]]", "\"I\"", "null", "[[1,2],3]", "[1,[2,3]]", "[[1,\"a\"],[2,3]]", "{}"}) {
     try {
       square_matrix(Json::parse(text), 2, "/noise/Q");
       FAIL() << text;

@@ -26,18 +26,32 @@ TEST(Catalogue, NumbersSignalsInOrder) {
 }
 
 TEST(Signal, IsWrittenForTheContract) {
-  Signal signal{.id = 3, .name = "link.1-2.state", .kind = SignalKind::category, .link = "1-2", .labels = {{0, "clean"}, {1, "DoS"}}};
-  EXPECT_EQ(to_json(signal).dump(),
-            R"({"id":3,"name":"link.1-2.state","unit":"","kind":"category","lane":null,"node":null,"link":"1-2","labels":{"0":"clean","1":"DoS"}})");
+  Signal signal{.id = 3,
+                .name = "link.1-2.state",
+                .kind = SignalKind::category,
+                .link = "1-2",
+                .labels = {{0, "clean"}, {1, "DoS"}}};
+  EXPECT_EQ(
+      to_json(signal).dump(),
+      R"({"id":3,"name":"link.1-2.state","unit":"","kind":"category","lane":null,"node":null,"link":"1-2","labels":{"0":"clean","1":"DoS"}})");
   EXPECT_EQ(to_json(Signal{.name = "b", .kind = SignalKind::boolean})["kind"], "bool");
 }
 
 TEST(Mark, ComesBackFromJson) {
-  const Mark mark{.k = 12, .type = MarkType::attack, .edge = MarkEdge::end, .id = "a1", .lane = "l", .node = "2", .link = "1-2", .code = "dos", .detail = "d"};
+  const Mark mark{.k = 12,
+                  .type = MarkType::attack,
+                  .edge = MarkEdge::end,
+                  .id = "a1",
+                  .lane = "l",
+                  .node = "2",
+                  .link = "1-2",
+                  .code = "dos",
+                  .detail = "d"};
   const Mark back = mark_from_json(to_json(mark));
   EXPECT_EQ(to_json(back), to_json(mark));
   EXPECT_EQ(to_json(Mark{.k = 1}).dump(), R"({"k":1,"type":"note","edge":null})");
-  for (const auto type : {MarkType::attack, MarkType::alarm, MarkType::fault, MarkType::command, MarkType::state, MarkType::note}) {
+  for (const auto type :
+       {MarkType::attack, MarkType::alarm, MarkType::fault, MarkType::command, MarkType::state, MarkType::note}) {
     EXPECT_EQ(mark_from_json(to_json(Mark{.type = type})).type, type);
   }
 }

@@ -33,11 +33,12 @@ TEST_P(KnownGraph, HasTheSpecifiedDegrees) {
   EXPECT_TRUE(is_graph_name(GetParam().name));
 }
 
-INSTANTIATE_TEST_SUITE_P(Graph, KnownGraph,
-                         testing::Values(Known{"ladder", {2, 2, 3, 3, 2, 2, 3, 3}}, Known{"ring", {2, 2, 2, 2, 2, 2, 2, 2}},
-                                         Known{"path", {1, 2, 2, 2, 2, 2, 2, 1}}, Known{"knn2", {2, 3, 3, 4, 2, 2, 2, 4}},
-                                         Known{"knn3", {3, 3, 4, 4, 3, 3, 4, 4}}, Known{"radius85", {1, 2, 4, 5, 3, 3, 5, 5}},
-                                         Known{"complete", {7, 7, 7, 7, 7, 7, 7, 7}}, Known{"none", {0, 0, 0, 0, 0, 0, 0, 0}}));
+INSTANTIATE_TEST_SUITE_P(
+    Graph, KnownGraph,
+    testing::Values(Known{"ladder", {2, 2, 3, 3, 2, 2, 3, 3}}, Known{"ring", {2, 2, 2, 2, 2, 2, 2, 2}},
+                    Known{"path", {1, 2, 2, 2, 2, 2, 2, 1}}, Known{"knn2", {2, 3, 3, 4, 2, 2, 2, 4}},
+                    Known{"knn3", {3, 3, 4, 4, 3, 3, 4, 4}}, Known{"radius85", {1, 2, 4, 5, 3, 3, 5, 5}},
+                    Known{"complete", {7, 7, 7, 7, 7, 7, 7, 7}}, Known{"none", {0, 0, 0, 0, 0, 0, 0, 0}}));
 
 TEST(Graph, IsTheSameInMetres) {
   for (const char* name : {"knn1", "knn2", "knn3", "knn4", "knn5", "knn6", "knn7"}) {
@@ -99,8 +100,8 @@ TEST(Graph, RefusesBadEdges) {
 }
 
 TEST(Graph, RefusesNamesThatDoNotFit) {
-  for (const char* name : {"", "star", "knn", "knn0", "knn8", "knn-1", "knn1.5", "knn2x", "radius", "radius0", "radius-1", "radiusnan",
-                           "radiusinf", "radius1x", "Ladder"}) {
+  for (const char* name : {"", "star", "knn", "knn0", "knn8", "knn-1", "knn1.5", "knn2x", "radius", "radius0",
+                           "radius-1", "radiusnan", "radiusinf", "radius1x", "Ladder"}) {
     try {
       make_graph(name, cameras());
       FAIL() << name;
