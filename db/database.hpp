@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -77,6 +78,9 @@ class Statement {
   sqlite3_stmt* statement_ = nullptr;
   bool owned_ = true;
 };
+
+/// The parts of a text one after another.
+std::string joined(std::initializer_list<std::string_view> parts);
 
 class Database {
  public:

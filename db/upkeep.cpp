@@ -99,7 +99,7 @@ void Upkeep::retain(const RetentionLimits& limits, WallTime now) {
   if (limits.days) {
     const auto before = now - static_cast<WallTime>(std::min(*limits.days, 36500.0) * kDay);
     Transaction transaction(database_);
-    database_.cached(std::string("UPDATE run SET deleted=1 WHERE ended<? AND ") + kEnded + " AND NOT " + kTagged)
+    database_.cached(joined({"UPDATE run SET deleted=1 WHERE ended<? AND ", kEnded, " AND NOT ", kTagged}))
         .bind(1, before)
         .run();
     transaction.commit();
@@ -108,8 +108,8 @@ void Upkeep::retain(const RetentionLimits& limits, WallTime now) {
   if (static_cast<double>(used_bytes(database_)) <= *limits.gib * 1073741824.0) return;
   Transaction transaction(database_);
   database_
-      .cached(std::string("UPDATE run SET deleted=1 WHERE id=(SELECT id FROM run WHERE ") + kEnded + " ORDER BY " +
-              kTagged + ",ended,id LIMIT 1)")
+      .cached(joined({"UPDATE run SET deleted=1 WHERE id=(SELECT id FROM run WHERE ", kEnded, " ORDER BY ", kTagged,
+                      ",ended,id LIMIT 1)"}))
       .run();
   transaction.commit();
 }

@@ -17,13 +17,12 @@ WallTime system_now() {
 void interrupt_open_runs(Database& database, WallTime now) {
   const char* const open = "deleted=0 AND state IN('queued','designing','running','paused')";
   Transaction transaction(database);
-  database
-      .cached(
-          std::string("INSERT INTO mark(run,k,type,edge,ref,lane,node,link,code,detail) SELECT id,max(k,0),'state','',"
-                      "'','','','','interrupted','The server ended before the run did.' FROM run WHERE ") +
-          open)
-      .run();
-  database.cached(std::string("UPDATE run SET state='interrupted',ended=? WHERE ") + open).bind(1, now).run();
+  const char* const mark =
+      "INSERT INTO mark(run,k,type,edge,ref,lane,node,link,code,detail) SELECT "
+      "id,max(k,0),'state','','','','','','interrupted',"
+      "'The server ended before the run did.' FROM run WHERE ";
+  database.cached(joined({mark, open})).run();
+  database.cached(joined({"UPDATE run SET state='interrupted',ended=? WHERE ", open})).bind(1, now).run();
   database.cached("UPDATE campaign SET state='interrupted',ended=? WHERE state IN('queued','running','paused')")
       .bind(1, now)
       .run();
