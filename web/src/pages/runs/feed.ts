@@ -1,10 +1,20 @@
 import { base } from '../../api/client';
+import type { RunState } from '../../api/types';
+
+/** What the feed says of a run, about once a second and whenever its state changes. */
+export interface RunNote {
+  id: string;
+  state: RunState | 'deleted';
+  k?: number;
+  t?: number;
+  ticks_per_second?: number | null;
+}
 
 /**
- * Listens to the server's global feed and tells which run something happened to. `connected` is told when the feed is lost and
+ * Listens to the server's global feed and tells what happened to which run. `connected` is told when the feed is lost and
  * found again. A tab that nobody looks at gives its connection up: a browser has six for all of them. Returns what stops it.
  */
-export function watchRuns(happened: (run: string) => void, connected: (is: boolean) => void): () => void {
+export function watchRuns(happened: (note: RunNote) => void, connected: (is: boolean) => void): () => void {
   let source: EventSource | undefined;
   let timer: ReturnType<typeof setTimeout> | undefined;
   let wait = 1000;
@@ -12,9 +22,8 @@ export function watchRuns(happened: (run: string) => void, connected: (is: boole
 
   const heard = (event: MessageEvent<string>): void => {
     try {
-      const data = JSON.parse(event.data) as { run?: unknown; id?: unknown; type?: unknown };
-      const run = data.run ?? data.id;
-      if (typeof run === 'string' || typeof run === 'number') happened(String(run));
+      const note = JSON.parse(event.data) as RunNote;
+      if (typeof note.id === 'string') happened(note);
     } catch {
       return;
     }
@@ -25,7 +34,7 @@ export function watchRuns(happened: (run: string) => void, connected: (is: boole
       wait = 1000;
       connected(true);
     });
-    for (const name of ['run', 'state', 'mark']) source.addEventListener(name, heard as (event: Event) => void);
+    source.addEventListener('run', heard as (event: Event) => void);
     source.addEventListener('error', () => {
       connected(false);
       if (source?.readyState !== EventSource.CLOSED || stopped) return;

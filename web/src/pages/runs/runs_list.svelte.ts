@@ -1,6 +1,7 @@
 import { api } from '../../api/client';
 import { ApiProblem } from '../../api/problem';
 import type { RunItem } from '../../api/types';
+import type { RunNote } from './feed';
 import { appended, replaced } from './table';
 
 const kPage = 100;
@@ -59,17 +60,25 @@ export class RunsList {
   }
 
   /** Something happened to a run: its row becomes what the server says now; a new run shows where the list is newest first. */
-  async refresh(id: string): Promise<void> {
-    const known = this.items.some((item) => item.id === id);
-    if (!known) {
-      const { q, sort } = this.#query;
-      if (q === '' && sort === '' && !this.loading) await this.#newest();
-      return;
+  async heard(note: RunNote): Promise<void> {
+    const known = this.items.find((item) => item.id === note.id);
+    if (note.state === 'deleted') {
+      this.drop(new Set([note.id]));
+    } else if (known && known.state === note.state) {
+      const { k, t, ticks_per_second } = { ...known.progress, ...note };
+      this.put({ ...known, progress: { ...known.progress, k, t, ticks_per_second } });
+    } else if (known) {
+      await this.#fetch(note.id);
+    } else if (this.#query.q === '' && this.#query.sort === '' && !this.loading) {
+      await this.#newest();
     }
+  }
+
+  async #fetch(id: string): Promise<void> {
     try {
-      this.items = replaced(this.items, await api.run(id));
+      this.put(await api.run(id));
     } catch (error) {
-      if (error instanceof ApiProblem && error.status === 404) this.items = this.items.filter((item) => item.id !== id);
+      if (error instanceof ApiProblem && error.status === 404) this.drop(new Set([id]));
     }
   }
 
