@@ -25,3 +25,18 @@ export function download(name: string, text: string, type: string): void {
   anchor.click();
   URL.revokeObjectURL(url);
 }
+
+/** Puts a text on the clipboard, also where the page came over plain HTTP and the browser hides its clipboard. */
+export async function copyText(text: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = document.createElement('textarea');
+    area.value = text;
+    area.className = 'hidden-text';
+    document.body.append(area);
+    area.select();
+    document.execCommand('copy');
+    area.remove();
+  }
+}
