@@ -47,10 +47,11 @@ function samples(run, query) {
   const from = Math.max(0, Number(query.get('from') ?? 0));
   const to = Math.min(head(run), Number(query.get('to') ?? head(run)));
   const points = Number(query.get('points') ?? 1000);
-  const columns = names.map((name) => signals.find((signal) => signal.name === name)?.id);
+  const picked = names.map((name) => signals.find((signal) => signal.name === name || String(signal.id) === name));
+  const columns = picked.map((signal) => signal?.id);
   const bucket = Math.max(1, Math.ceil((to - from + 1) / points));
   const k = [];
-  const series = names.map((signal) => (bucket === 1 ? { signal, v: [] } : { signal, lo: [], hi: [] }));
+  const series = picked.map(({ name: signal }) => (bucket === 1 ? { signal, v: [] } : { signal, lo: [], hi: [] }));
   for (let start = from; start <= to; start += bucket) {
     k.push(start);
     const rows = [];

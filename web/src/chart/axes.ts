@@ -36,7 +36,9 @@ export function drawTickAxis(context: CanvasRenderingContext2D, g: Geometry): vo
     context.lineTo(x, bottom);
     context.stroke();
     context.fillStyle = colour('muted');
-    if (x > g.left - 4 && x < g.width - 6) context.fillText(tickLabel(k), x, g.height - 4);
+    const text = tickLabel(k);
+    const half = context.measureText(text).width / 2;
+    if (x >= g.left - 4) context.fillText(text, Math.min(x, g.width - half - 1), g.height - 4);
   }
 }
 

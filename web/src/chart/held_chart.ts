@@ -70,7 +70,7 @@ export class HeldChart {
   }
 
   private async load(): Promise<void> {
-    const module = await import('uplot');
+    const [module] = await Promise.all([import('uplot'), import('uplot/dist/uPlot.min.css')]);
     if (this.library) return;
     this.library = module.default;
     this.ready();
@@ -81,6 +81,7 @@ export class HeldChart {
       width: plotWidth(g),
       height: plotHeight(g),
       padding: [0, 0, 0, 0],
+      pxAlign: 0,
       legend: { show: false },
       cursor: { show: false },
       axes: [{ show: false }, { show: false }],
@@ -88,7 +89,7 @@ export class HeldChart {
         x: { time: false, range: [g.from, g.to] },
         y: { distr: this.log ? 3 : 1, range: [this.scale.lo, this.scale.hi] },
       },
-      series: [{}, ...lines.map((line) => ({ stroke: line.colour, width: line.width, dash: line.dash, points: { show: false }, spanGaps: false }))],
+      series: [{}, ...lines.map((line) => ({ stroke: line.colour, width: line.width, dash: line.dash, points: { show: false }, pxAlign: 0, spanGaps: false }))],
     };
   }
 }

@@ -116,8 +116,8 @@ function letters(
   context.textBaseline = 'middle';
   rows.forEach((row, r) => {
     const span = spans[r]!;
-    if (span.height < 8) return;
-    context.font = `600 ${Math.min(11, span.height - 0.5)}px 'IBM Plex Mono', monospace`;
+    if (span.height < 7) return;
+    context.font = `600 ${Math.min(11, span.height + 0.5)}px 'IBM Plex Mono', monospace`;
     for (let c = 0; c < columns; c++) {
       const value = cells[r]![c]!;
       const cell = Number.isNaN(value) ? null : row.cell(value);

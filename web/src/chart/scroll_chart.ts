@@ -24,6 +24,8 @@ export class ScrollChart {
   private since = 0;
   /** Length drawn so far of each line, so that dashes go on where they stopped. */
   private lengths = new Map<string, number>();
+  /** Newest tick drawn of each line: streams of one run do not arrive in step. */
+  private drawn = new Map<string, number>();
 
   constructor(private readonly log: boolean) {
     this.scale = fit(null, log);
@@ -58,7 +60,8 @@ export class ScrollChart {
     this.scale = fit(extent(all, g.from, g.to, this.log), this.log);
     context.setTransform(1, 0, 0, 1, 0, 0);
     this.lengths.clear();
-    lines.forEach((line, i) => this.stroke(context, line, all[i]!, -Infinity, p));
+    this.drawn.clear();
+    lines.forEach((line, i) => this.stroke(context, line, all[i]!, p));
   }
 
   /** False where a new value does not fit the scale. */
@@ -67,10 +70,9 @@ export class ScrollChart {
     lines: readonly Line[],
     p: { width: number; height: number; perTick: number; base: number; shift: number; to: number; ratio: number },
   ): boolean {
-    if (p.to === this.lastTo) return true;
     const context = canvas.getContext('2d');
     if (!context) return false;
-    const fresh = lines.map((line) => line.get(this.lastTo, p.to));
+    const fresh = lines.map((line) => line.get(this.drawn.get(line.key) ?? p.to, p.to));
     for (const series of fresh) {
       for (let i = 0; i < series.k.length; i++) if (outside(this.scale, series.hi[i]!) || outside(this.scale, series.lo[i]!)) return false;
     }
@@ -80,30 +82,32 @@ export class ScrollChart {
       context.drawImage(canvas, -p.shift, 0);
       context.globalCompositeOperation = 'source-over';
     }
-    lines.forEach((line, i) => this.stroke(context, line, fresh[i]!, this.lastTo, p));
+    lines.forEach((line, i) => this.stroke(context, line, fresh[i]!, p));
     this.base = p.base;
     this.lastTo = p.to;
-    this.since++;
+    if (p.shift > 0) this.since++;
     return true;
   }
 
-  /** Draws the segments that end after tick `after`. */
+  /** Draws the segments that are not drawn yet. */
   private stroke(
     context: CanvasRenderingContext2D,
     line: Line,
     series: Series,
-    after: number,
     p: { width: number; height: number; perTick: number; base: number; ratio: number },
   ): void {
     context.strokeStyle = line.colour;
     context.lineWidth = line.width * p.ratio;
     context.lineJoin = 'round';
     context.setLineDash(line.dash.map((d) => d * p.ratio));
+    const after = this.drawn.get(line.key) ?? -Infinity;
     let length = this.lengths.get(line.key) ?? 0;
     context.lineDashOffset = length;
     context.beginPath();
     let px = NaN;
     let py = NaN;
+    // One subpath as long as the line goes on: a dash starts afresh with every subpath.
+    let pen = false;
     const raw = series.lo === series.hi;
     for (let i = 0; i < series.k.length; i++) {
       const k = series.k[i]!;
@@ -112,18 +116,20 @@ export class ScrollChart {
         const y = p.height * (1 - fraction(this.scale, half === 0 ? series.lo[i]! : series.hi[i]!));
         if (Number.isNaN(y)) {
           px = NaN;
+          pen = false;
           continue;
         }
         const joins = !Number.isNaN(px) && (half > 0 || series.joined[i] === 1);
         if (k > after) {
           if (joins) {
-            context.moveTo(px, py);
+            if (!pen) context.moveTo(px, py);
             context.lineTo(x, y);
             length += Math.hypot(x - px, y - py);
           } else {
             context.moveTo(x - p.ratio, y);
             context.lineTo(x, y);
           }
+          pen = true;
         }
         px = x;
         py = y;
@@ -132,5 +138,7 @@ export class ScrollChart {
     context.stroke();
     context.setLineDash([]);
     this.lengths.set(line.key, length);
+    const newest = series.k[series.k.length - 1];
+    if (newest !== undefined) this.drawn.set(line.key, Math.max(after, newest));
   }
 }

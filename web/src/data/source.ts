@@ -40,6 +40,8 @@ export class Source {
   private timer: ReturnType<typeof setTimeout> | null = null;
   private abort: AbortController | null = null;
   private fetchedAt = 0;
+  /** How often older rows came into a ring. */
+  inserts = 0;
 
   constructor(
     readonly run: string,
@@ -59,6 +61,17 @@ export class Source {
   touch(): void {
     this.version++;
     this.changed();
+  }
+
+  /** Older rows came into a ring. */
+  inserted(): void {
+    this.inserts++;
+    this.touch();
+  }
+
+  /** Changes when what is drawn of a window up to tick `to` may have changed: not with every new tick beyond it. */
+  stamp(to: number): string {
+    return `${this.fetchedAt} ${this.inserts} ${this.rings.length} ${Math.min(this.head, Math.ceil(to) + 1)}`;
   }
 
   /** The ring that carries a signal, and its column. */

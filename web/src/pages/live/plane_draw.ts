@@ -70,13 +70,21 @@ export function drawPlane(context: CanvasRenderingContext2D, width: number, heig
   context.beginPath();
   context.rect(36, 2, width - 38, height - 20);
   context.clip();
-  links(context, scene, X, Y);
+  const badges = links(context, scene, X, Y);
   for (const estimate of scene.estimates) way(context, estimate.track, scene, X, Y, { token: scene.token, width: estimate.chosen ? 1.8 : 0.9, alpha: estimate.chosen ? 1 : 0.6, dash: [] });
   way(context, scene.truth, scene, X, Y, { token: 'ink', width: 2.2, alpha: 1, dash: [6, 4] });
   for (const estimate of scene.estimates) dot(context, lastPoint(estimate.track, scene.at), X, Y, scene.token, estimate.chosen ? 4.5 : 3, true);
   dot(context, lastPoint(scene.truth, scene.at), X, Y, 'ink', 6, false);
+  for (const badge of badges) drawBadge(context, badge);
   nodes(context, scene, X, Y);
   context.restore();
+}
+
+interface Badge {
+  x: number;
+  y: number;
+  letter: string;
+  token: string;
 }
 
 type Map1 = (v: number) => number;
@@ -171,9 +179,9 @@ function nodes(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y:
 }
 
 /** Each undirected pair once as a thin line; each attacked direction with its letter, nearer to the receiver. */
-function links(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y: Map1): void {
+function links(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y: Map1): Badge[] {
   const place = new Map(scene.nodes.filter((node) => node.position).map((node) => [node.id, node.position!]));
-  const badges: { x: number; y: number; letter: string; token: string }[] = [];
+  const badges: Badge[] = [];
   for (const pass of [false, true]) {
     for (const { from, to, value } of scene.links) {
       const [a, b] = [place.get(from), place.get(to)];
@@ -197,10 +205,10 @@ function links(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y:
       badges.push({ x: mx + (bx - mx) * share, y: my + (by - my) * share, letter: cell.letter, token: cell.token });
     }
   }
-  for (const badge of badges) drawBadge(context, badge);
+  return badges;
 }
 
-function drawBadge(context: CanvasRenderingContext2D, badge: { x: number; y: number; letter: string; token: string }): void {
+function drawBadge(context: CanvasRenderingContext2D, badge: Badge): void {
   context.beginPath();
   context.roundRect(badge.x - 6.5, badge.y - 6.5, 13, 13, 2.5);
   context.fillStyle = colour('surface');

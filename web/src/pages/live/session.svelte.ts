@@ -175,7 +175,7 @@ export class Session {
     if (to < from || to - from > maxGap) return;
     try {
       ring.insert(await this.source!.rows(ring, from, to));
-      this.source?.touch();
+      this.source?.inserted();
     } catch {
       // The hatched gap stays: it is what is known.
       return;
