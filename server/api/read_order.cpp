@@ -1,0 +1,76 @@
+// The body of POST /runs.
+#include <algorithm>
+
+#include "engine/core/describe.hpp"
+#include "server/api/read_body.hpp"
+
+namespace vigil {
+namespace {
+
+Scenario read_scenario(const Json& value, const Services& services) {
+  if (value.is_string()) {
+    const auto id = value.get<std::string>();
+    const auto& presets = Scenario::preset_ids();
+    if (std::find(presets.begin(), presets.end(), id) != presets.end()) return Scenario::preset(id);
+    if (const auto row = services.reader.scenario(id)) return Scenario::from_json(row->document);
+    throw InputError("/scenario", "there is no scenario " + in_quotes(id) + "; expected one of GET /api/v1/scenarios",
+                     listed(presets) + ", or one of your own");
+  }
+  if (!value.is_object()) {
+    throw InputError("/scenario", "scenario is " + shown(value) + "; expected an id or a document", "text or object");
+  }
+  try {
+    return Scenario::from_json(value);
+  } catch (const InputError& error) {
+    rethrow_below(error, "/scenario");
+  }
+}
+
+void read_patch(const Json& patch, RunOrder& order) {
+  if (!patch.is_object()) throw InputError("/patch", "patch is " + shown(patch) + "; expected an object", "object");
+  if (patch.empty()) return;
+  try {
+    order.scenario = order.scenario.patched(patch);
+  } catch (const InputError& error) {
+    rethrow_below(error, "/patch");
+  }
+}
+
+void read_input(const Json& input, Services& services, RunOrder& order) {
+  if (input == "simulate") return;
+  if (input == "ingest") {
+    throw InputError("/input", "\"ingest\" (live data of your own) is not part of this version", "\"simulate\" or {\"trace\":id}");
+  }
+  if (!input.is_object() || input.size() != 1 || !input.contains("trace")) {
+    throw InputError("/input", "input is " + shown(input) + "; expected \"simulate\" or {\"trace\":id}", "\"simulate\" or {\"trace\":id}");
+  }
+  order.trace_id = read_id(input.at("trace"), "/input/trace");
+  order.trace = services.runs.trace(*order.trace_id);
+  if (!order.trace) {
+    throw InputError("/input/trace", "there is no trace " + std::to_string(*order.trace_id), "an id of GET /api/v1/traces");
+  }
+}
+
+}  // namespace
+
+RunOrder read_order(const HttpRequest& request, Services& services) {
+  const Json body = request.json();
+  check_members(body, {"scenario", "patch", "seed", "pace", "input", "tags", "note"});
+  if (!body.contains("scenario")) {
+    throw InputError("/scenario", "scenario is missing; expected an id or a document", "text or object");
+  }
+  RunOrder order;
+  order.scenario = read_scenario(body.at("scenario"), services);
+  if (body.contains("patch")) read_patch(body.at("patch"), order);
+  if (body.contains("seed")) {
+    order.seed = static_cast<std::uint64_t>(read_integer(body.at("seed"), "seed", 0, static_cast<std::int64_t>(kLargestSeed)));
+  }
+  if (body.contains("pace")) order.pace = Pace::from_json(body.at("pace"), "/pace");
+  if (body.contains("input")) read_input(body.at("input"), services, order);
+  if (body.contains("tags")) order.tags = read_tags(body.at("tags"));
+  if (body.contains("note")) order.note = read_note(body.at("note"));
+  read_idempotency(request, order);
+  return order;
+}
+
+}  // namespace vigil

@@ -1,0 +1,83 @@
+#include "server/api/server.hpp"
+
+#include <atomic>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "server/api/services.hpp"
+#include "server/runs/demo.hpp"
+
+namespace vigil {
+namespace {
+
+constexpr const char* kNoPage =
+    "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Vigil</title></head><body>"
+    "<h1>The page is not built</h1>"
+    "<p>The server runs and its API answers below <code>/api/v1</code>, but the page's files were not found.</p>"
+    "<p>Build them with <code>cd web &amp;&amp; npm ci &amp;&amp; npm run build</code>, or start the server with "
+    "<code>script/server</code>, which does that; <code>--web DIR</code> names another folder.</p></body></html>\n";
+
+Route no_page_route() {
+  Route route;
+  route.method = "GET";
+  route.pattern = "/";
+  route.open = true;
+  route.summary = "Says how to build the page, where it was not found";
+  route.doc = {{"responses", {{"404", {{"description", "The page is not built."}}}}}};
+  route.handler = [](const HttpRequest&, HttpResponse& response) {
+    response.text(kNoPage, "text/html; charset=utf-8", 404);
+  };
+  return route;
+}
+
+}  // namespace
+
+struct Server::State {
+  explicit State(ServerOptions given)
+      : options(std::move(given)), files(options.web ? StaticFiles(*options.web) : StaticFiles()), log(options.db, options.log),
+        reader(options.db), hub(options.hub), runs(log, reader, hub, options.runs),
+        services{log, reader, hub, runs, [this] { return front->stats(); }, [this]() -> const Routes& { return front->routes(); },
+                 [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
+                 options.front.tokens.required()} {
+    Routes routes = make_routes(services);
+    if (files.empty()) routes.add(no_page_route());
+    front = std::make_unique<Front>(options.front, std::move(routes), hub, std::move(files));
+  }
+
+  ServerOptions options;
+  StaticFiles files;
+  LogWriter log;
+  LogReader reader;
+  Hub hub;
+  std::atomic<RunId> demo{-1};
+  RunManager runs;
+  Services services;
+  std::unique_ptr<Front> front;
+};
+
+Server::Server(ServerOptions options) : state_(std::make_unique<State>(std::move(options))) {}
+Server::~Server() { stop(); }
+
+void Server::start() {
+  state_->front->start();
+  if (!state_->options.demo) return;
+  try {
+    state_->demo = start_demo(state_->runs, state_->log, state_->reader);
+  } catch (const std::exception& failure) {
+    // A full disk, say: the server is still of use.
+    spdlog::warn("the demo run did not start: {}", failure.what());
+  }
+}
+
+int Server::port() const { return state_->front->port(); }
+
+void Server::stop() {
+  if (!state_) return;
+  // Runs first: their viewers hear how they ended. Handlers that wait for a run are let go by its end.
+  state_->runs.stop();
+  state_->front->stop();
+  state_.reset();
+}
+
+}  // namespace vigil

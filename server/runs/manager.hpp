@@ -1,0 +1,78 @@
+/// Every run that is not over: so many at once, the others in a queue, each with its own thread.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "db/reader.hpp"
+#include "db/writer.hpp"
+#include "server/hub/hub.hpp"
+#include "server/runs/live_run.hpp"
+#include "server/runs/order.hpp"
+
+namespace vigil {
+
+struct ManagerOptions {
+  int max_runs = 4;             ///< beside the demo
+  std::size_t max_queue = 64;   ///< runs that wait; each holds its state in memory
+};
+
+class RunManager {
+ public:
+  /// All three outlive the manager.
+  RunManager(LogWriter& log, const LogReader& reader, Hub& hub, ManagerOptions options = {});
+  ~RunManager();  ///< stops
+  RunManager(const RunManager&) = delete;
+  RunManager& operator=(const RunManager&) = delete;
+
+  // Safe from any thread.
+
+  /// Makes the run, commits it and lets it start or wait. Throws InputError, LogError (also conflict, of an idempotency
+  /// key), RunRefusal (full, or the server is stopping). A key that is known gives the run it made, not fresh.
+  CreatedRun create(RunOrder order);
+  std::shared_ptr<LiveRun> find(RunId id) const;  ///< null: over, or never was
+  /// Ends the run if it is live and deletes it from the log and the hub. Throws LogError (missing), RunRefusal (busy).
+  void remove(RunId id);
+  /// The content of a trace in the log, shared while anyone uses it; null where there is none. Throws InputError where
+  /// the text is no trace.
+  std::shared_ptr<const Trace> trace(std::int64_t id);
+
+  struct Counts {
+    int running = 0;  ///< paused ones and the demo included
+    int queued = 0;
+    int max = 0;
+  };
+  Counts counts() const;
+  /// Ends every run: those that have begun become "stopped", those that wait "interrupted". Returns when all have ended.
+  void stop();
+
+ private:
+  void ended(RunId id);
+  void keep_house();
+  void fill();  ///< starts what there is room for; mutex_ is held
+
+  LogWriter& log_;
+  const LogReader& reader_;
+  Hub& hub_;
+  const ManagerOptions options_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<RunId, std::shared_ptr<LiveRun>> runs_;
+  std::deque<RunId> queue_;
+  std::deque<RunId> ended_;
+  int beginning_ = 0;  ///< being created, outside the lock
+  bool stopping_ = false;
+  bool closed_ = false;
+  std::mutex trace_mutex_;
+  std::map<std::int64_t, std::weak_ptr<const Trace>> traces_;
+  std::thread keeper_;
+};
+
+}  // namespace vigil

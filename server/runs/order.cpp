@@ -1,0 +1,56 @@
+#include "server/runs/order.hpp"
+
+#include <algorithm>
+
+namespace vigil {
+
+Run make_run(const RunOrder& order) {
+  RunOptions options;
+  options.seed = order.seed;
+  options.trace = order.trace;
+  options.commands = order.commands;
+  return Run(order.scenario, std::move(options));
+}
+
+RunRecord make_record(const RunOrder& order, const Run& run) {
+  const Json& document = order.scenario.document();
+  RunRecord record;
+  record.scenario = order.scenario.id();
+  record.family = order.scenario.family();
+  record.document = document;
+  record.document_hash = sha256_hex(document.dump());
+  record.seed = order.seed;
+  record.version = std::string(version());
+  record.cpu = cpu_features();
+  record.pace = order.pace.to_json();
+  record.input = order.trace_id ? Json{{"trace", std::to_string(*order.trace_id)}} : Json("simulate");
+  record.trace = order.trace_id;
+  record.tags = order.tags;
+  record.note = order.note;
+  record.parent = order.parent;
+  record.dt = run.dt();
+  record.steps = run.steps();
+  record.policy = log_policy(document, order.pace);
+  record.keep = log_keep(document);
+  record.reproducible = document.value("reproducible", true);
+  record.idempotency_key = order.idempotency_key;
+  record.idempotency_hash = order.idempotency_hash;
+  return record;
+}
+
+std::string cpu_features() {
+#if defined(__x86_64__)
+  std::string features = "x86-64";
+  if (__builtin_cpu_supports("avx")) features += " avx";
+  if (__builtin_cpu_supports("avx2")) features += " avx2";
+  if (__builtin_cpu_supports("fma")) features += " fma";
+  if (__builtin_cpu_supports("avx512f")) features += " avx512f";
+  return features;
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+  return "other";
+#endif
+}
+
+}  // namespace vigil

@@ -1,0 +1,80 @@
+// Which signals go where: into the log, and into each topic of the stream.
+#include <set>
+#include <string_view>
+
+#include "server/runs/glob.hpp"
+#include "server/runs/order.hpp"
+
+namespace vigil {
+namespace {
+
+const Json& log_member(const Json& document, const char* name) {
+  static const Json none;
+  const auto log = document.find("log");
+  if (log == document.end() || !log->is_object()) return none;
+  const auto member = log->find(name);
+  return member == log->end() ? none : *member;
+}
+
+bool starts(std::string_view text, std::string_view head) { return text.substr(0, head.size()) == head; }
+bool ends(std::string_view text, std::string_view tail) {
+  return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
+}
+
+bool in_overview(const Signal& signal) {
+  if (!signal.lane.empty()) return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error");
+  if (starts(signal.name, "truth.") || starts(signal.name, "input.")) return true;
+  return starts(signal.name, "link.") && ends(signal.name, ".state");
+}
+
+}  // namespace
+
+LogPolicy log_policy(const Json& document, const Pace& pace) {
+  const Json& policy = log_member(document, "policy");
+  if (policy == "live") return LogPolicy::live;
+  if (policy == "lossless") return LogPolicy::lossless;
+  return pace.paced() ? LogPolicy::live : LogPolicy::lossless;
+}
+
+std::optional<double> log_keep(const Json& document) {
+  const Json& keep = log_member(document, "keep");
+  return keep.is_number() ? std::optional(keep.get<double>()) : std::nullopt;
+}
+
+LogSelection log_selection(const Json& document, const Catalogue& catalogue) {
+  LogSelection selection;
+  const Json& every = log_member(document, "every");
+  if (every.is_number_integer()) selection.every = every.get<std::int64_t>();
+  const Json& patterns = log_member(document, "signals");
+  if (!patterns.is_array()) return selection;
+  for (const Signal& signal : catalogue.all()) {
+    for (const Json& pattern : patterns) {
+      if (!pattern.is_string() || !glob_match(pattern.get_ref<const std::string&>(), signal.name)) continue;
+      selection.signals.push_back(signal.id);
+      break;
+    }
+  }
+  if (static_cast<int>(selection.signals.size()) == catalogue.size()) selection.signals.clear();
+  return selection;
+}
+
+std::vector<HubTopic> hub_topics(const Catalogue& catalogue, const Json& document) {
+  std::vector<HubTopic> topics{{"overview", {}}};
+  for (const Signal& signal : catalogue.all()) {
+    if (in_overview(signal)) topics.front().signals.push_back(signal.id);
+  }
+  for (const auto& [lane, body] : document.at("lanes").items()) {
+    HubTopic topic{"lane:" + lane, {}};
+    for (const Signal& signal : catalogue.all()) {
+      const bool truth = signal.lane.empty() && starts(signal.name, "truth.");
+      if (truth || signal.lane == lane) topic.signals.push_back(signal.id);
+    }
+    topics.push_back(std::move(topic));
+  }
+  HubTopic all{"all", {}};
+  for (const Signal& signal : catalogue.all()) all.signals.push_back(signal.id);
+  topics.push_back(std::move(all));
+  return topics;
+}
+
+}  // namespace vigil
