@@ -44,8 +44,9 @@ void LogWriter::State::run_job(Job& job) {
 void LogWriter::State::write(Round& round) {
   Transaction transaction(*database);
   const WallTime written = now();
-  for (const auto& block : round.sealed) insert_block(*database, block, written);
+  // The tail first: a block that is sealed in the same round removes its rows again.
   for (const auto& row : round.tail) insert_tail(*database, row);
+  for (const auto& block : round.sealed) insert_block(*database, block, written);
   for (const auto& [run, k] : round.newest) set_newest(*database, run, k);
   for (const auto& [run, gap] : round.gaps) insert_gap(*database, run, gap);
   for (auto& job : round.jobs) run_job(job);
