@@ -86,6 +86,4 @@ Packet encode_frame(std::string_view epoch, std::int64_t k, double t, std::int64
   return std::make_shared<const std::string>(as_chunk(text));
 }
 
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 }  // namespace vigil

@@ -31,6 +31,6 @@ Packet encode_frame(std::string_view epoch, std::int64_t k, double t, std::int64
                     const std::vector<int>& signals);
 
 /// JSON text in which invalid UTF-8 is replaced, never a throw.
-std::string dump(const Json& json);
+inline std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace vigil
