@@ -1,7 +1,11 @@
 /// Live commands: what may be changed while a run goes on.
 #include <fmt/format.h>
 
+#include "engine/core/describe.hpp"
 #include "engine/run/state.hpp"
+#include "engine/scenario/document.hpp"
+#include "engine/scenario/fields.hpp"
+#include "engine/scenario/structure.hpp"
 
 namespace vigil {
 namespace {
@@ -22,10 +26,31 @@ std::vector<std::string> split(const std::string& path) {
                    "lanes.<lane>.params.<live parameter>, adversary.<attack>.params.<live parameter>, adversary.<attack>.enabled, network.graph");
 }
 
+/// A hand's attack, checked like one of the document; without "from" it begins at once.
+Json hand_attack(const Json& given, const Json& document) {
+  if (!given.is_object()) throw InputError("/attack", "attack is " + shown(given) + "; expected {\"type\",\"on\",…}", "object");
+  std::vector<Problem> problems;
+  Json rest = given;
+  rest.erase("id");
+  if (rest.contains("from") && rest["from"].is_null()) rest.erase("from");
+  Json attack = complete_attack(rest, document, "/attack", problems);
+  const Json id = given.value("id", Json(nullptr));
+  if (!id.is_string() || !is_member_id(id.get_ref<const std::string&>())) {
+    problems.push_back({"/attack/id", "id is " + shown(id) + "; expected 1 to 32 small letters, digits and '_'", "[a-z0-9_]{1,32}"});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  attack["id"] = id;
+  if (!rest.contains("from")) attack.erase("from");
+  return attack;
+}
+
 }  // namespace
 
 void Run::State::change(const Command& command, Sink* sink) {
   const Json& body = command.body;
+  std::vector<Problem> problems;
+  check_structure(body, "", problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
   if (!body.is_object() || body.size() != 1) throw InputError("", "a command has exactly one of params, attack, end_attack");
   Mark mark;
   mark.k = command.k;
@@ -35,10 +60,11 @@ void Run::State::change(const Command& command, Sink* sink) {
     mark.code = "params";
     for (const auto& [path, value] : body["params"].items()) mark.detail += (mark.detail.empty() ? "" : ", ") + path + " = " + value.dump();
   } else if (body.contains("attack")) {
-    adversary.start(body["attack"], command.k);
+    const Json attack = hand_attack(body["attack"], scenario.document());
+    adversary.start(attack, command.k);
     mark.code = "attack";
-    mark.id = body["attack"].value("id", "");
-    mark.detail = body["attack"].value("type", "") + " on " + body["attack"].value("on", Json::array()).dump();
+    mark.id = attack["id"].get<std::string>();
+    mark.detail = attack["type"].get<std::string>() + " on " + attack["on"].dump();
   } else if (body.contains("end_attack") && body["end_attack"].is_string()) {
     mark.id = body["end_attack"].get<std::string>();
     adversary.end(mark.id, command.k);

@@ -43,6 +43,17 @@ int node_index(const Json& id, const std::vector<std::string>& nodes, const std:
   throw InputError(pointer, fmt::format("there is no node \"{}\"", name));
 }
 
+/// A link's state is one of the four of the contract, or missing.
+void check_states(const Trace& trace, int column) {
+  for (std::int64_t k = trace.first_tick(); k < trace.first_tick() + trace.rows(); ++k) {
+    const double state = trace.at(k, column);
+    if (std::isnan(state) || state == 0 || state == 1 || state == 2 || state == 3) continue;
+    const std::string& name = trace.columns()[static_cast<std::size_t>(column)];
+    throw InputError("/input/trace", fmt::format("{} is {} at tick {}; expected 0 clean, 1 DoS, 2 FDI, 3 replay or nothing", name, state, k),
+                     "0, 1, 2, 3");
+  }
+}
+
 }  // namespace
 
 Graph read_network(const Json& network, const std::vector<std::string>& nodes, const Eigen::Matrix2Xd& positions) {
@@ -202,6 +213,7 @@ void Run::State::find_columns() {
   for (const Link& link : base.links()) {
     const std::string name = "link." + nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
     columns.link_state.push_back(find(name + ".state"));
+    if (columns.link_state.back() >= 0) check_states(*trace, columns.link_state.back());
     columns.injected.emplace_back();
     for (const Component& c : plant->state()) columns.injected.back().push_back(find(name + ".injected." + c.name));
   }

@@ -32,6 +32,8 @@ void Run::State::step(Sink& sink) {
     lane.publish(k, truth, *plant, frame.values);
     lane.faults().mark_edges(lane.id(), lane.outputs(), sink);
   }
+  // A plant may overflow (a document can ask for 1e300): a frame says that as missing, never as infinity.
+  for (double& value : frame.values) value = std::isfinite(value) ? value : kMissing;
   sink.frame(frame);
 }
 

@@ -101,10 +101,10 @@ std::optional<Graph> document_graph(const Json& document) {
 }
 
 std::vector<std::string> live_paths(const Json& document) {
-  std::vector<std::string> paths{"network", "network.graph", "network.edges"};
+  std::vector<std::string> paths{"network.graph"};
   for (const auto& [id, attack] : document["adversary"].items()) {
     const std::string path = "adversary." + id;
-    for (const char* key : {".enabled", ".from", ".to"}) paths.push_back(path + key);
+    paths.push_back(path + ".enabled");
     add_live<AttackMake>(attack, "type", path, paths);
   }
   for (const auto& [id, lane] : document["lanes"].items()) add_live<MethodMake>(lane, "method", "lanes." + id, paths);

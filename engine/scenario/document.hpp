@@ -43,7 +43,7 @@ std::vector<std::pair<int, int>> edge_indices(const Json& document);
 std::optional<Graph> document_graph(const Json& document);
 
 /// The dotted paths of a complete document that may be changed while a run goes on: the parameters declared live,
-/// "network" with its members, "adversary.<id>.enabled", ".from" and ".to". In document order.
+/// "network.graph" and "adversary.<id>.enabled". In document order.
 std::vector<std::string> live_paths(const Json& document);
 
 }  // namespace vigil

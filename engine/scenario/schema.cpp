@@ -95,10 +95,10 @@ Json network() {
   graph["x-live"] = true;
   const Json end = {{"type", {"string", "integer"}}};
   const Json pair = {{"type", "array"}, {"items", end}, {"minItems", 2}, {"maxItems", 2}};
-  Json edges = leaf({{"type", "array"}, {"items", pair}, {"maxItems", 4096}},
-                    {"Pairs of node ids, used where the graph is \"edges\"", "节点对，graph 为 \"edges\" 时使用"});
-  edges["x-live"] = true;
-  return leaf(object({{"graph", std::move(graph)}, {"edges", std::move(edges)}}), {"Network", "网络"});
+  const Json edges =
+      leaf({{"type", "array"}, {"items", pair}, {"maxItems", 4096}},
+           {"Pairs of node ids, used where the graph is \"edges\"", "节点对，graph 为 \"edges\" 时使用"});
+  return leaf(object({{"graph", std::move(graph)}, {"edges", edges}}), {"Network", "网络"});
 }
 
 Json covariance(const Words& words, const char* symbol) {
@@ -134,20 +134,17 @@ Json initial(const Json& document) {
       {"Initial values", "初始值"});
 }
 
-Json live(Json member) {
-  member["x-live"] = true;
-  return member;
-}
-
 Json attack() {
   const Json place = {{"type", "string"}, {"pattern", "^link:(\\*|[A-Za-z0-9_]{1,16}-[A-Za-z0-9_]{1,16})$"}};
   const Json places = {{"type", "array"}, {"items", place}, {"minItems", 1}, {"maxItems", 4096}};
+  Json enabled = leaf(boolean(), {"Acts", "启用"}, true);
+  enabled["x-live"] = true;
   Json result =
       object({{"type", kinds<AttackMake>({"Attack", "攻击"})},
               {"on", leaf(places, {"Where: link:<from>-<to> or link:*", "作用位置：link:<from>-<to> 或 link:*"})},
-              {"from", live(leaf(tick(0, false), {"First tick", "起始步"}, 1))},
-              {"to", live(leaf(tick(0, true), {"Last tick; none: to the end", "结束步；无：直至结束"}, nullptr))},
-              {"enabled", live(leaf(boolean(), {"Acts", "启用"}, true))},
+              {"from", leaf(tick(0, false), {"First tick", "起始步"}, 1)},
+              {"to", leaf(tick(0, true), {"Last tick; none: to the end", "结束步；无：直至结束"}, nullptr)},
+              {"enabled", std::move(enabled)},
               {"params", params_slot()}},
              Json::array({"type", "on"}));
   result["allOf"] = branches<AttackMake>("attack", "type");

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "engine/core/describe.hpp"
 #include "engine/core/input_error.hpp"
+#include "engine/run/run.hpp"
 #include "engine/run/trace.hpp"
 #include "engine/scenario/document.hpp"
 #include "engine/scenario/scenario.hpp"
@@ -63,6 +65,63 @@ inline bool patch_case(const Json& patch) {
 inline bool with_case(std::string_view path, const Json& value) {
   try {
     return scenario_case(Scenario::preset("consensus").with(path, value).document());
+  } catch (const InputError& error) {
+    check_refusal(error);
+    return false;
+  }
+}
+
+/// Looks at every frame: numbers are finite or missing.
+class FiniteSink final : public Sink {
+ public:
+  void frame(const Frame& frame) override {
+    for (const double value : frame.values) require(!std::isinf(value), "an infinite value in a frame");
+  }
+  void mark(const Mark& mark) override {
+    require(mark_from_json(to_json(mark)).k == mark.k, "a mark that does not come back");
+  }
+};
+
+/// Refused, or a run of a few ticks whose every number is finite or missing. True where it ran.
+inline bool run_case(const Json& document) {
+  try {
+    Run run(Scenario::from_json(document), {});
+    FiniteSink sink;
+    for (int n = 0; n < 4; ++n) run.step(sink);
+    for (const auto& metric : run.metrics()) to_json(metric).dump();
+    run.design().dump();
+    run.world().dump();
+    return true;
+  } catch (const InputError& error) {
+    check_refusal(error);
+    return false;
+  }
+}
+
+/// A text as the trace of a run: refused, or a run whose every number is finite or missing. True where it ran.
+inline bool recorded_case(std::string_view text) {
+  try {
+    static const Scenario scenario = Scenario::preset("consensus");
+    RunOptions options;
+    options.trace = std::make_shared<const Trace>(Trace::from_csv(text, 1'000'000));
+    Run run(scenario, options);
+    FiniteSink sink;
+    for (int n = 0; n < 6; ++n) run.step(sink);
+    return true;
+  } catch (const InputError& error) {
+    check_refusal(error);
+    return false;
+  }
+}
+
+/// Refused, or applied to a copy of the run, which goes on. True where accepted.
+inline bool command_case(const Run& before, const Json& body) {
+  try {
+    Run run(before);
+    run.apply(run.prepare(body));
+    FiniteSink sink;
+    for (int n = 0; n < 2; ++n) run.step(sink);
+    return true;
   } catch (const InputError& error) {
     check_refusal(error);
     return false;

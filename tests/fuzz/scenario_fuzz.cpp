@@ -1,4 +1,4 @@
-/// Any bytes as a scenario document, as a patch and, split at the first line break, as a path and its value.
+/// Any bytes as a scenario document that is run, as a patch and, split at the first line break, as a path and its value.
 #include <cstddef>
 #include <cstdint>
 
@@ -8,7 +8,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   vigil::fuzz::scenario_case(text);
   const vigil::Json patch = vigil::Json::parse(text, nullptr, false);
-  if (!patch.is_discarded()) vigil::fuzz::patch_case(patch);
+  if (!patch.is_discarded()) {
+    vigil::fuzz::patch_case(patch);
+    vigil::fuzz::run_case(patch);
+  }
   const std::size_t line = text.find('\n');
   if (line == std::string_view::npos) return 0;
   const vigil::Json value = vigil::Json::parse(text.substr(line + 1), nullptr, false);
