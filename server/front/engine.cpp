@@ -66,6 +66,7 @@ void mend_empty(std::string& bytes) {
 
 Engine::Engine(const Routes& routes, const StaticFiles& files, BulkLimits limits)
     : routes_(routes), files_(files), limits_(limits), slots_(limits.slots) {
+  svr_sock_ = 0;  // never used; the library takes "no listening socket" for shutting down and writes no streamed body
   set_keep_alive_max_count(1000);
   set_keep_alive_timeout(30);
   set_pre_routing_handler([this](const httplib::Request&, httplib::Response& response) {
