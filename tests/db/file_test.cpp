@@ -169,7 +169,8 @@ TEST(File, CheckFindsEveryKindOfDamage) {
       {"INSERT INTO tail(run,k,v) VALUES(1,3000,zeroblob(32))", "missing and no gap says so"},
       {"INSERT INTO tail(run,k,v) VALUES(1,2000,x'00')", "wrong size"},
       {"INSERT INTO tail(run,k,v) VALUES(9,1,zeroblob(32))", "run 9, which is not there"},
-      {"INSERT INTO mark(run,k,type,edge,ref,lane,node,link,code,detail) VALUES(5,1,'note','','','','','','','')", "table mark"}};
+      {"INSERT INTO mark(run,k,type,edge,ref,lane,node,link,code,detail) VALUES(5,1,'note','','','','','','','')",
+       "table mark"}};
   for (const auto& [sql, words] : damages) {
     const std::string bad = folder.file("bad.db");
     std::filesystem::copy_file(good, bad, std::filesystem::copy_options::overwrite_existing);

@@ -64,7 +64,8 @@ inline RunRecord record(const std::string& scenario = "consensus") {
   RunRecord r;
   r.scenario = scenario;
   r.family = "consensus";
-  r.document = Json::parse(R"({"title":{"en":"Eight cameras","zh":"八台相机"},"lanes":{"consensus":{"params":{"tau":0.02}}}})");
+  r.document =
+      Json::parse(R"({"title":{"en":"Eight cameras","zh":"八台相机"},"lanes":{"consensus":{"params":{"tau":0.02}}}})");
   r.document_hash = sha256_hex(r.document.dump());
   r.version = "0.1.0";
   r.dt = 0.5;
@@ -81,7 +82,8 @@ inline std::uint64_t bits(double value) {
 /// Writes random frames and keeps a copy. Values are mostly numbers, now and then missing, infinite or denormal.
 class Recorder {
  public:
-  Recorder(LogWriter& writer, int width, LogSelection selection = {}, LogPolicy policy = LogPolicy::lossless, unsigned seed = 1)
+  Recorder(LogWriter& writer, int width, LogSelection selection = {}, LogPolicy policy = LogPolicy::lossless,
+           unsigned seed = 1)
       : writer_(writer), width_(width), random_(seed) {
     id = writer.create_run(record()).id;
     RunUpdate running;

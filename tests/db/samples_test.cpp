@@ -78,8 +78,8 @@ void expect_extremes(const std::vector<Frame>& frames, const SampleWindow& windo
       }
       const bool same_lo = lo == series.lo[b] || (std::isnan(lo) && std::isnan(series.lo[b]));
       const bool same_hi = hi == series.hi[b] || (std::isnan(hi) && std::isnan(series.hi[b]));
-      ASSERT_TRUE(same_lo && same_hi) << "bucket " << b << " from tick " << window.k[b] << ": " << lo << ".." << hi << " but "
-                                      << series.lo[b] << ".." << series.hi[b];
+      ASSERT_TRUE(same_lo && same_hi) << "bucket " << b << " from tick " << window.k[b] << ": " << lo << ".." << hi
+                                      << " but " << series.lo[b] << ".." << series.hi[b];
     }
   }
 }
