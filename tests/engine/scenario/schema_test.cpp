@@ -8,7 +8,8 @@
 #include "engine/methods/method.hpp"
 #include "engine/scenario/markdown.hpp"
 #include "engine/scenario/scenario.hpp"
-#include "small_schema.hpp"
+#include "tests/engine/scenario/small_schema.hpp"
+#include "tests/fuzz/cases.hpp"
 
 namespace vigil {
 namespace {
@@ -108,13 +109,25 @@ TEST(Registries, AreWrittenAsJson) {
   }
 }
 
+std::string page(const std::string& name) {
+  std::ifstream file(std::string(VIGIL_SOURCE_DIR) + "/docs/" + name);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(Documentation, SmallestDocumentRuns) {
+  const std::string text = page("scenario.md");
+  const std::string begin = "```json\n";
+  const std::size_t from = text.find(begin) + begin.size();
+  ASSERT_LT(from, text.size());
+  EXPECT_TRUE(fuzz::run_case(Json::parse(text.substr(from, text.find("```", from) - from))));
+}
+
 TEST(Documentation, ParametersPageFollowsTheCode) {
   const std::string path = std::string(VIGIL_SOURCE_DIR) + "/docs/parameters.md";
   if (std::getenv("VIGIL_UPDATE_DOCS") != nullptr) std::ofstream(path) << parameters_markdown();
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_EQ(text.str(), parameters_markdown())
+  EXPECT_EQ(page("parameters.md"), parameters_markdown())
       << "run the engine tests with VIGIL_UPDATE_DOCS=1 and commit docs/parameters.md";
 }
 
