@@ -37,7 +37,8 @@ void LaneScore::Sum::add(double value) {
 
 double LaneScore::Sum::mean() const { return count == 0 ? kNone : total / static_cast<double>(count); }
 
-LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs) : groups_(plant.errors()), outputs_(std::move(outputs)) {
+LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreWindow window)
+    : window_(window), groups_(plant.errors()), outputs_(std::move(outputs)) {
   for (const Component& component : plant.state()) periods_.push_back(component.period);
   sums_.resize(outputs_.size() * groups_.size());
   last_.resize(outputs_.size() * kWindow);
@@ -50,7 +51,7 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
     double square = 0;
     for (const int c : groups_[static_cast<std::size_t>(g)].components) square += e[c] * e[c];
     score.error[g] = std::sqrt(square);
-    if (k == 0) continue;
+    if (!window_.holds(k)) continue;
     cell(output, g).add(square);
     if (g == 0) {
       Sum& slot = last_[static_cast<std::size_t>(output * kWindow + static_cast<int>(k % kWindow))];
@@ -64,7 +65,7 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
     const Eigen::Map<const Eigen::VectorXd> r(belief.innovation, belief.innovation_size);
     score.nis = belief.innovation_covariance == nullptr ? r.squaredNorm() : inverse_form(belief.innovation_covariance, BoundedVector(r));
   }
-  if (k > 0) {
+  if (window_.holds(k)) {
     nees_.add(score.nees);
     nis_.add(score.nis);
   }

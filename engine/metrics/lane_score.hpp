@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,16 +21,23 @@ struct TickScore {
   double nis = 0;        ///< r' S^-1 r
 };
 
-/// Sums over the ticks 1.. of one lane. A value: copies are forks.
+/// The ticks that count, both ends included. Tick 0, the initial state, never does.
+struct ScoreWindow {
+  std::int64_t from = 1;
+  std::int64_t to = std::numeric_limits<std::int64_t>::max();
+  bool holds(std::int64_t k) const { return k >= 1 && k >= from && k <= to; }
+};
+
+/// Sums over the ticks of one lane's window. A value: copies are forks.
 class LaneScore {
  public:
   static constexpr int kMaxGroups = 4;
   static constexpr int kWindow = 10;  ///< ticks of rmse_position_last10
 
   LaneScore() = default;
-  LaneScore(const Plant& plant, std::vector<std::string> outputs);
+  LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreWindow window = {});
 
-  /// Judges one output; the truth may have NaN. Counts it unless k is 0.
+  /// Judges one output; the truth may have NaN. Counts it where the window holds k.
   TickScore judge(std::int64_t k, int output, const Eigen::VectorXd& truth, const Belief& belief);
 
   /// rmse_<group> (whole lane and per output), rmse_<first group>_last10, nees_mean, nis_mean.
@@ -47,6 +56,7 @@ class LaneScore {
   const Sum& cell(int output, int group) const { return sums_[static_cast<std::size_t>(output * groups() + group)]; }
   int groups() const { return static_cast<int>(groups_.size()); }
 
+  ScoreWindow window_;
   std::vector<ErrorGroup> groups_;
   std::vector<double> periods_;
   std::vector<std::string> outputs_;

@@ -33,14 +33,14 @@ std::string square_unit(const std::string& unit) { return unit.empty() ? "" : un
 }  // namespace
 
 Lane::Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params, const Plant& plant,
-           const Graph& graph)
+           const Graph& graph, ScoreWindow window)
     : id_(std::move(id)),
       method_id_(std::move(method_id)),
       spared_(spared),
       method_(std::move(method)),
       params_(std::move(params)),
       outputs_(method_->outputs()),
-      score_(plant, outputs_) {
+      score_(plant, outputs_, window) {
   for (const Component& component : plant.state()) periods_.push_back(component.period);
   inbox_.resize(method_->message() > 0 ? graph.links().size() : 0);
   for (Delivery& delivery : inbox_) delivery.payload = Eigen::VectorXd::Zero(method_->message());

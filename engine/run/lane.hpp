@@ -16,7 +16,8 @@ namespace vigil {
 class Lane {
  public:
   /// `spared`: the adversary does not touch it.
-  Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params, const Plant& plant, const Graph& graph);
+  Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params, const Plant& plant, const Graph& graph,
+       ScoreWindow window);
   Lane(const Lane& other);
   Lane(Lane&&) noexcept = default;
 

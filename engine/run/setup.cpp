@@ -43,6 +43,15 @@ int node_index(const Json& id, const std::vector<std::string>& nodes, const std:
   throw InputError(pointer, fmt::format("there is no node \"{}\"", name));
 }
 
+ScoreWindow read_window(const Json& document) {
+  ScoreWindow window;
+  const Json metrics = document.value("metrics", Json::object());
+  if (!metrics.contains("window")) return window;
+  window.from = metrics["window"].value("from", window.from);
+  if (metrics["window"]["to"].is_number()) window.to = metrics["window"]["to"].get<std::int64_t>();
+  return window;
+}
+
 /// A link's state is one of the four of the contract, or missing.
 void check_states(const Trace& trace, int column) {
   for (std::int64_t k = trace.first_tick(); k < trace.first_tick() + trace.rows(); ++k) {
@@ -178,6 +187,7 @@ void Run::State::set_lanes(const Json& document) {
   Q_root = symmetric_root(knowledge.Q);
   knowledge.estimates = initial_estimates(document.value("initial", Json::object()), knowledge.P0);
   const std::vector<LinkRates> published = adversary.rates(graph);
+  const ScoreWindow window = read_window(document);
   for (const auto& [id, lane] : document["lanes"].items()) {
     if (!lane.value("enabled", true)) continue;
     const std::string pointer = "/lanes/" + id;
@@ -186,7 +196,7 @@ void Run::State::set_lanes(const Json& document) {
     const std::string method = lane["method"].get<std::string>();
     const auto& entry = entry_of<MethodMake>(method, pointer + "/method");
     auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
-    lanes.emplace_back(id, method, spared, std::move(made), lane["params"], *plant, graph);
+    lanes.emplace_back(id, method, spared, std::move(made), lane["params"], *plant, graph, window);
   }
   if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");
 }
@@ -194,7 +204,8 @@ void Run::State::set_lanes(const Json& document) {
 void Run::State::set_recorded_lanes() {
   for (auto& recorded : find_recorded_lanes(trace, scenario.document()["lanes"], *plant)) {
     std::string id = recorded.lane;
-    lanes.emplace_back(std::move(id), "recorded", true, std::move(recorded.method), Json::object(), *plant, graph);
+    lanes.emplace_back(std::move(id), "recorded", true, std::move(recorded.method), Json::object(), *plant, graph,
+                       read_window(scenario.document()));
   }
 }
 
