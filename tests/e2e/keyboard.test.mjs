@@ -33,7 +33,7 @@ describe('by keyboard alone', () => {
     await page.locator('[data-scenario="consensus"]').waitFor();
 
     await page.keyboard.press('Tab');
-    assert.equal(await page.evaluate(() => document.activeElement?.className), 'skip', 'the first stop skips to the content');
+    assert.equal(await page.evaluate(() => document.activeElement?.classList.contains('skip')), true, 'the first stop skips to the content');
     await page.keyboard.press('Enter');
     await tabTo(page, 'the scenario', () => document.activeElement?.getAttribute('aria-label') === 'Open consensus');
     await page.keyboard.press('Enter');
@@ -78,7 +78,7 @@ describe('by keyboard alone', () => {
     await page.keyboard.press('Enter');
     await until('typing in a field is not a shortcut', () => new URL(page.url()).searchParams.get('q') === 'state:running');
     await page.locator(`tr[data-run="${id}"]`).waitFor();
-    await call(server, 'DELETE', `/runs/${id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${id}`);
   });
 });

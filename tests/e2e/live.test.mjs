@@ -33,8 +33,8 @@ describe('live page', () => {
     await until('the page shows it', async () => (await shownTick(page)) === k + 1);
     await button(page, 'Resume the run').click();
     await tickPast(page, k + 1);
-    await call(server, 'DELETE', `/runs/${run.id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
   });
 
   test('zooms and scrubs while the run goes on, and comes back to live', async () => {
@@ -57,8 +57,8 @@ describe('live page', () => {
     await page.locator('body').press('l');
     await until('it follows again', () => rangeOf(page) === null && cursorOf(page) === null);
     await tickPast(page, before + 5);
-    await call(server, 'DELETE', `/runs/${run.id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
   });
 
   test('changes a live parameter', async () => {
@@ -79,8 +79,8 @@ describe('live page', () => {
       return commands.some(({ body }) => body.params?.['adversary.links.params.pdos'] === 0.5);
     });
     await page.getByRole('log').getByText('command').first().waitFor();
-    await call(server, 'DELETE', `/runs/${run.id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
   });
 
   test('attacks a link by hand, shows it in the events, and stops it', async () => {
@@ -100,8 +100,8 @@ describe('live page', () => {
     await dialog.getByRole('button', { name: /^Stop / }).first().click();
     await until('the attack has ended', async () => (await marks('end')).length > 0);
     await dialog.getByText('None.').waitFor();
-    await call(server, 'DELETE', `/runs/${run.id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
   });
 
   test('saves what a panel shows as CSV', async () => {
@@ -118,8 +118,8 @@ describe('live page', () => {
     assert.ok(head.includes('lane.consensus.rmse'), head.join());
     const column = head.indexOf('lane.consensus.rmse');
     assert.ok(rows.some((row) => Number(row[column]) > 0 && row[column].length > 8), 'full precision');
-    await call(server, 'DELETE', `/runs/${run.id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
   });
 
   test('forks at the tick shown', async () => {
@@ -136,9 +136,9 @@ describe('live page', () => {
     const fork = await call(server, 'GET', `/runs/${/\/live\/(\d+)/.exec(page.url())[1]}`);
     assert.deepEqual(fork.parent, { run: run.id, k });
     await page.getByText(`forked from run ${run.id} at k = ${k}`).waitFor();
+    await view.close();
     await call(server, 'DELETE', `/runs/${fork.id}`);
     await call(server, 'DELETE', `/runs/${run.id}`);
-    await view.close();
   });
 
   test('a note and a tag are text, not markup', async () => {
@@ -149,7 +149,7 @@ describe('live page', () => {
     await page.getByText(nasty).first().waitFor();
     assert.equal(await page.locator('main img, header img').count(), 0);
     assert.notEqual(await page.title(), '1');
-    await call(server, 'DELETE', `/runs/${run.id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
   });
 });

@@ -132,8 +132,8 @@ describe('runs', () => {
     const [imported, original] = await Promise.all([call(server, 'GET', `/runs/${id}`), call(server, 'GET', `/runs/${ids[1]}`)]);
     assert.equal(imported.seed, original.seed);
     assert.deepEqual(imported.document, original.document);
-    await call(server, 'DELETE', `/runs/${id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${id}`);
   });
 
   test('runs again, and sees the new run without being asked', async () => {
@@ -151,9 +151,9 @@ describe('runs', () => {
     assert.equal(await metric(id), await metric(ids[0]), 'the same seed gives the same figure');
     const other = await call(server, 'POST', '/runs', { scenario: 'consensus', seed: 77, pace: 'max' });
     await page.locator(`tr[data-run="${other.id}"]`, { hasText: 'finished' }).waitFor();
+    await view.close();
     await call(server, 'DELETE', `/runs/${id}`);
     await call(server, 'DELETE', `/runs/${other.id}`);
-    await view.close();
   });
 
   test('deletes with time to think again', async () => {

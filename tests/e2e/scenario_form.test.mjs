@@ -41,8 +41,8 @@ describe('scenario form', () => {
     assert.equal(run.seed, 42);
     assert.equal(run.state, 'running');
     assert.deepEqual(run.tags, ['e2e', 'paper']);
-    await call(server, 'DELETE', `/runs/${id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${id}`);
   });
 
   test('shows units, limits, defaults and meanings in the chosen language', async () => {
@@ -117,6 +117,7 @@ describe('scenario form', () => {
     await view.goto('/scenarios/consensus');
     await button(page, 'Duplicate consensus').click();
     await page.locator('[data-pointer="/lanes/consensus_2"]').waitFor();
+    await page.locator('[data-pointer="/lanes/isolated"] > summary').click();
     await button(page, 'Remove isolated').click();
     await page.locator('[data-pointer="/lanes/isolated"]').waitFor({ state: 'detached' });
     await page.getByRole('radio', { name: 'as fast as possible' }).check();
@@ -125,8 +126,8 @@ describe('scenario form', () => {
     const run = await call(server, 'GET', `/runs/${/\/live\/(\d+)/.exec(page.url())[1]}`);
     const lanes = Object.keys(run.document.lanes);
     assert.ok(lanes.includes('consensus_2') && !lanes.includes('isolated'), lanes.join());
-    await call(server, 'DELETE', `/runs/${run.id}`);
     await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
   });
 
   test('saves a scenario of its own; its title is text, not markup; deleting can be undone', async () => {

@@ -56,13 +56,25 @@ export async function postCsv<T>(path: string, text: string, query?: Query): Pro
   return body<T>(await send('POST', address(path, query), { headers: { 'Content-Type': 'text/csv' }, body: text }));
 }
 
+async function beginSession(token: string): Promise<void> {
+  // What no header can carry cannot be the token either.
+  const sent = /^[\x21-\x7e]+$/.test(token.trim()) ? token.trim() : 'invalid';
+  await send('POST', address('/session'), { headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${sent}` } });
+}
+
+/** A key nobody else has. crypto.randomUUID is missing where the page came over plain HTTP. */
+export function freshKey(): string {
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
+}
+
 function runPath(id: string, rest = ''): string {
   return `/runs/${encodeURIComponent(id)}${rest}`;
 }
 
 export const api = {
   server: (signal?: AbortSignal) => get<ServerInfo>('/server', {}, signal),
-  session: (token: string) => post<void>('/session', { token }),
+  /** Trades the token for a cookie that scripts cannot read. */
+  session: (token: string) => beginSession(token),
 
   scenarios: (signal?: AbortSignal) => get<Page<ScenarioItem>>('/scenarios', {}, signal),
   scenario: (id: string, signal?: AbortSignal) => get<Record<string, unknown>>(`/scenarios/${encodeURIComponent(id)}`, {}, signal),
@@ -72,7 +84,7 @@ export const api = {
   runs: (query: { q?: string; sort?: string; limit?: number; cursor?: string } = {}, signal?: AbortSignal) => get<Page<RunItem>>('/runs', query, signal),
   run: (id: string, signal?: AbortSignal) => get<RunDetail>(runPath(id), {}, signal),
   /** Starts a run. The same key sent again starts no second one. */
-  start: (run: NewRun, key: string = crypto.randomUUID()) => post<RunDetail>('/runs', run, { 'Idempotency-Key': key }),
+  start: (run: NewRun, key: string = freshKey()) => post<RunDetail>('/runs', run, { 'Idempotency-Key': key }),
   change: (id: string, changes: Record<string, unknown>) => patch<RunDetail>(runPath(id), changes),
   deleteRun: (id: string) => remove(runPath(id)),
   fork: (id: string, k: number, changes: Record<string, unknown> = {}) => post<RunDetail>(runPath(id, '/fork'), { k, patch: changes }),
