@@ -2,7 +2,8 @@ import { getContext, setContext } from 'svelte';
 import type { Session } from './session.svelte';
 import type { LiveView } from './view.svelte';
 
-const key = Symbol('live');
+/** Exported for tests, which set the context by hand. */
+export const liveKey = Symbol('live');
 
 export interface LiveContext {
   session: Session;
@@ -10,9 +11,9 @@ export interface LiveContext {
 }
 
 export function provideLive(context: LiveContext): void {
-  setContext(key, context);
+  setContext(liveKey, context);
 }
 
 export function useLive(): LiveContext {
-  return getContext<LiveContext>(key);
+  return getContext<LiveContext>(liveKey);
 }
