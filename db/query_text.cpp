@@ -161,6 +161,20 @@ std::optional<WallTime> fraction(std::string_view text, std::size_t& at, WallTim
   return value;
 }
 
+/// Year to second; nothing where the month has no such day.
+std::optional<WallTime> utc_seconds(const std::array<int, 6>& value) {
+  std::tm utc{};
+  utc.tm_year = value[0] - 1900;
+  utc.tm_mon = value[1] - 1;
+  utc.tm_mday = value[2];
+  utc.tm_hour = value[3];
+  utc.tm_min = value[4];
+  utc.tm_sec = value[5];
+  const auto seconds = static_cast<WallTime>(timegm(&utc));
+  if (utc.tm_mday != value[2]) return std::nullopt;
+  return seconds;
+}
+
 }  // namespace
 
 std::optional<std::pair<WallTime, WallTime>> read_time(std::string_view text, WallTime now) {
@@ -199,16 +213,9 @@ std::optional<std::pair<WallTime, WallTime>> read_time(std::string_view text, Wa
     part_of_second = *read;
   }
   if (at != text.size()) return std::nullopt;
-  std::tm utc{};
-  utc.tm_year = value[0] - 1900;
-  utc.tm_mon = value[1] - 1;
-  utc.tm_mday = value[2];
-  utc.tm_hour = value[3];
-  utc.tm_min = value[4];
-  utc.tm_sec = value[5];
-  const auto seconds = static_cast<WallTime>(timegm(&utc));
-  if (utc.tm_mday != value[2]) return std::nullopt;
-  const WallTime first = seconds * kSecond + part_of_second;
+  const auto seconds = utc_seconds(value);
+  if (!seconds) return std::nullopt;
+  const WallTime first = *seconds * kSecond + part_of_second;
   return std::pair(first, first + resolution);
 }
 
