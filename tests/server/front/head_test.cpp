@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"space in target", "GET /a b HTTP/1.1\r\nHost: x\r\n\r\n", 400},
                     Case{"two spaces", "GET  /a HTTP/1.1\r\nHost: x\r\n\r\n", 400},
                     Case{"raw UTF-8 in target", "GET /\xc3\xa9 HTTP/1.1\r\nHost: x\r\n\r\n", 400},
-                    Case{"nul in target", std::string("GET /\0 HTTP/1.1\r\nHost: x\r\n\r\n", 30), 400},
+                    Case{"nul in target", std::string("GET /\0 HTTP/1.1\r\nHost: x\r\n\r\n", 28), 400},
                     Case{"backslash", "GET /\\a HTTP/1.1\r\nHost: x\r\n\r\n", 400},
                     Case{"version 2", "GET /a HTTP/2.0\r\nHost: x\r\n\r\n", 505},
                     Case{"no version", "GET /a\r\nHost: x\r\n\r\n", 400},
@@ -109,7 +109,7 @@ void expect_sound(const Head& head) {
 }
 
 std::string mutated(std::mt19937& random, std::string bytes) {
-  static const std::string spice = std::string("\r\n\t :?#%&=\0\x7f\xff/\\\"", 18);
+  static const std::string spice = std::string("\r\n\t :?#%&=\0\x7f\xff/\\\"", 16);
   const int times = static_cast<int>(random() % 6);
   for (int i = 0; i < times && !bytes.empty(); ++i) {
     const std::size_t at = random() % bytes.size();
