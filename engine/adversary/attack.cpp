@@ -1,5 +1,6 @@
 #include "engine/adversary/attack.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace vigil {
@@ -26,6 +27,32 @@ void LinkEffects::inject(int link, const Eigen::Ref<const Eigen::VectorXd>& adde
   if (mine == LinkState::dos) return;
   mine = LinkState::fdi;
   injected.col(link) += added;
+}
+
+void SensorEffects::resize(const std::vector<int>& channels) {
+  injected.clear();
+  for (const int size : channels) injected.emplace_back(Eigen::VectorXd::Zero(size));
+  kind.assign(channels.size(), 0);
+}
+
+void SensorEffects::clear() {
+  for (Eigen::VectorXd& value : injected) value.setZero();
+  std::fill(kind.begin(), kind.end(), 0);
+}
+
+void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, int attack_kind) {
+  const auto node = static_cast<std::size_t>(place.node);
+  kind[node] = attack_kind;
+  if (place.channel >= 0) {
+    injected[node][place.channel] += added[0];
+  } else {
+    injected[node] += added;
+  }
+}
+
+void SensorEffects::set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, int attack_kind) {
+  injected[static_cast<std::size_t>(node)] = value;
+  kind[static_cast<std::size_t>(node)] = attack_kind;
 }
 
 }  // namespace vigil

@@ -29,6 +29,24 @@ struct LinkEffects {
   void inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added);
 };
 
+/// Where an attack acts on sensors: a node, and one of its channels or (-1) the whole reading.
+struct SensorPlace {
+  int node = 0;
+  int channel = -1;
+};
+
+/// What happens to every reading in one tick, on its way to the receivers.
+struct SensorEffects {
+  std::vector<Eigen::VectorXd> injected;  ///< one a node, zero where nothing is injected
+  std::vector<int> kind;                  ///< one a node: 0 not attacked, else a number that the attack gives its type
+
+  void resize(const std::vector<int>& channels);
+  void clear();
+  void add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, int attack_kind);
+  /// Replaces what earlier attacks injected at this node: for attacks of which the later start wins.
+  void set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, int attack_kind);
+};
+
 /// What a receiver may know of a channel's statistics: the published probabilities and the bound, never a realisation.
 struct LinkRates {
   double dos = 0;    ///< phi-bar
@@ -39,17 +57,23 @@ struct LinkRates {
 struct AttackContext {
   std::string id;        ///< names its draws
   std::uint64_t seed = 0;
-  int message = 0;       ///< size of what a channel carries: the plant's states
+  int message = 0;             ///< size of what a link carries, the plant's states; 0: it acts on no link
+  std::vector<int> readings;   ///< sizes of what it acts on at sensors: a whole reading's channels, or 1
 };
+
+enum class ChannelKind { link, sensor };
 
 /// A value with no memory of its own but its parameters: what it does at a tick depends on tick and draws alone.
 class Attack {
  public:
   virtual ~Attack() = default;
   virtual std::unique_ptr<Attack> clone() const = 0;
+  virtual bool acts_on(ChannelKind kind) const { return kind == ChannelKind::link; }
   /// Acts at tick k on the given links (indices); `effects` holds what earlier attacks of the document did. No allocation.
-  virtual void act(std::int64_t k, std::span<const int> links, LinkEffects& effects) const = 0;
-  virtual LinkRates rates() const = 0;
+  virtual void act(std::int64_t /*k*/, std::span<const int> /*links*/, LinkEffects& /*effects*/) const {}
+  /// The same on sensors.
+  virtual void tamper(std::int64_t /*k*/, std::span<const SensorPlace> /*places*/, SensorEffects& /*effects*/) const {}
+  virtual LinkRates rates() const { return {}; }
 };
 
 /// Throws InputError (pointers relative to the params) for what the table cannot check: sums of probabilities, norms, sizes.

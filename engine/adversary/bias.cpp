@@ -1,4 +1,4 @@
-/// A constant vector added to what a channel carries, each step with a probability.
+/// A constant vector added to what a link carries or a sensor reads, each step with a probability.
 #include "engine/adversary/attack.hpp"
 #include "engine/random/draws.hpp"
 
@@ -11,10 +11,8 @@ class Bias final : public Attack {
       : probability_(params.real("probability")),
         vector_(params.vector("vector")),
         branch_(context.seed, "adversary." + context.id + ".branch") {
-    if (vector_.size() != context.message) {
-      throw InputError("/vector", "vector has " + std::to_string(vector_.size()) + " entries; a message has " +
-                                      std::to_string(context.message));
-    }
+    if (context.message > 0) check_size(context.message, "a message");
+    for (const int size : context.readings) check_size(size, "what it acts on at a sensor");
   }
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Bias>(*this); }
@@ -25,9 +23,24 @@ class Bias final : public Attack {
     }
   }
 
+  bool acts_on(ChannelKind /*kind*/) const override { return true; }
+
+  void tamper(std::int64_t k, std::span<const SensorPlace> places, SensorEffects& effects) const override {
+    for (const SensorPlace& place : places) {
+      // Sensors draw apart from links: indices from 2^16 on, 64 a node.
+      const auto index = static_cast<std::uint32_t>(0x10000 + place.node * 64 + place.channel + 1);
+      if (branch_.bernoulli(k, index, probability_)) effects.add(place, vector_, 1);
+    }
+  }
+
   LinkRates rates() const override { return {0, probability_, vector_.norm()}; }
 
  private:
+  void check_size(int expected, const char* what) const {
+    if (vector_.size() == expected) return;
+    throw InputError("/vector", "vector has " + std::to_string(vector_.size()) + " entries; " + what + " has " + std::to_string(expected));
+  }
+
   double probability_;
   Eigen::VectorXd vector_;
   Draws branch_;
@@ -39,7 +52,7 @@ const Registration<AttackMake> registration({
     "seed 000, (5)-(6), gamma alone with a constant vector",
     ParamTable({
         {.name = "vector", .type = ParamType::vector, .fallback = Json::array({15.0, 15.0, 0.0}), .live = true, .symbol = "ξ",
-         .meaning = {"What is added to the message", "加到消息上的向量"}},
+         .meaning = {"What is added to the message or the reading", "加到消息或读数上的向量"}},
         {.name = "probability", .fallback = 1.0, .minimum = 0, .maximum = 1, .live = true, .symbol = "γ̄",
          .meaning = {"Probability that the channel is falsified in a step", "每步信道被注入虚假数据的概率"}},
     }),

@@ -5,9 +5,12 @@
 #include <algorithm>
 
 #include "engine/core/params.hpp"
+#include "engine/scenario/document.hpp"
 
 namespace vigil {
 namespace {
+
+constexpr const char* kPlaces = "link:*, link:FROM-TO, sensor:NODE or sensor:NODE.CHANNEL";
 
 std::string quoted(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -22,54 +25,93 @@ std::optional<std::int64_t> read_tick(const Json& entry, const char* key, const 
 
 }  // namespace
 
-Adversary::Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes, std::uint64_t seed, int message)
-    : graph_(graph), nodes_(nodes), seed_(seed), message_(message) {
+Adversary::Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes,
+                     const std::vector<std::vector<std::string>>& channels, std::uint64_t seed, int message)
+    : graph_(graph), nodes_(nodes), channels_(channels), seed_(seed), message_(message) {
   for (const auto& [id, entry] : document.items()) add(id, entry, false, "/adversary/" + id, 1);
 }
 
-Adversary::Adversary(const Adversary& other) : graph_(other.graph_), nodes_(other.nodes_), seed_(other.seed_), message_(other.message_) {
+Adversary::Adversary(const Adversary& other)
+    : graph_(other.graph_), nodes_(other.nodes_), channels_(other.channels_), seed_(other.seed_), message_(other.message_) {
   for (const Entry& e : other.entries_) {
-    entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.place, e.from, e.to, e.enabled, e.by_hand, e.acting});
+    entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.link_name, e.node_name, e.from, e.to, e.enabled,
+                        e.by_hand, e.acting});
   }
 }
 
-std::vector<int> Adversary::places(const Json& on, const std::string& pointer) const {
-  std::vector<int> links;
-  if (!on.is_array() || on.empty()) throw InputError(pointer, "expected a list of places, such as [\"link:*\"] or [\"link:2-5\"]");
+int Adversary::find_link(const std::string& from, const std::string& to) const {
+  for (int l = 0; l < static_cast<int>(graph_.links().size()); ++l) {
+    const Link& link = graph_.links()[static_cast<std::size_t>(l)];
+    if (nodes_[static_cast<std::size_t>(link.from)] == from && nodes_[static_cast<std::size_t>(link.to)] == to) return l;
+  }
+  return -1;
+}
+
+SensorPlace Adversary::find_sensor(const std::string& node, const std::string& channel, const std::string& pointer) const {
+  const auto found = std::find(nodes_.begin(), nodes_.end(), node);
+  if (found == nodes_.end()) throw InputError(pointer, fmt::format("there is no node \"{}\"", node), fmt::format("{}", fmt::join(nodes_, ", ")));
+  SensorPlace place{static_cast<int>(found - nodes_.begin()), -1};
+  if (channel.empty()) return place;
+  const auto& names = channels_[static_cast<std::size_t>(place.node)];
+  const auto name = std::find(names.begin(), names.end(), channel);
+  if (name == names.end()) {
+    throw InputError(pointer, fmt::format("sensor {} has no channel \"{}\"", node, channel), fmt::format("{}", fmt::join(names, ", ")));
+  }
+  place.channel = static_cast<int>(name - names.begin());
+  return place;
+}
+
+void Adversary::find_places(const Json& on, const std::string& pointer, Entry& entry) const {
+  if (!on.is_array() || on.empty()) throw InputError(pointer, "expected a list of places, such as [\"link:*\"] or [\"sensor:3\"]");
   for (std::size_t p = 0; p < on.size(); ++p) {
     const std::string at = fmt::format("{}/{}", pointer, p);
-    const std::string place = on[p].is_string() ? on[p].get<std::string>() : quoted(on[p]);
-    if (place == "link:*") {
-      for (int l = 0; l < static_cast<int>(graph_.links().size()); ++l) links.push_back(l);
-      continue;
+    const std::string text = on[p].is_string() ? on[p].get<std::string>() : quoted(on[p]);
+    const auto place = parse_place(text);
+    if (!place || place->kind == PlaceKind::actuator) {
+      throw InputError(at, fmt::format("\"{}\" is no place that an attack of this version acts on", text), kPlaces);
     }
-    if (!place.starts_with("link:")) {
-      throw InputError(at, fmt::format("\"{}\" is not a link; attacks of this version act on links", place), "link:* or link:FROM-TO");
+    if (place->kind == PlaceKind::every_link) {
+      for (int l = 0; l < static_cast<int>(graph_.links().size()); ++l) entry.links.push_back(l);
+    } else if (place->kind == PlaceKind::link) {
+      entry.links.push_back(find_link(place->from, place->to));
+      if (entry.links.back() < 0) throw InputError(at, fmt::format("the network has no \"{}\"", text), kPlaces);
+    } else {
+      entry.sensors.push_back(find_sensor(place->node, place->channel, at));
     }
-    int found = -1;
-    for (int l = 0; l < static_cast<int>(graph_.links().size()); ++l) {
-      const Link& link = graph_.links()[static_cast<std::size_t>(l)];
-      const auto name = fmt::format("link:{}-{}", nodes_[static_cast<std::size_t>(link.from)], nodes_[static_cast<std::size_t>(link.to)]);
-      if (name == place) found = l;
-    }
-    if (found < 0) throw InputError(at, fmt::format("the network has no \"{}\"", place), "link:* or link:FROM-TO");
-    links.push_back(found);
   }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  return links;
+  std::sort(entry.links.begin(), entry.links.end());
+  entry.links.erase(std::unique(entry.links.begin(), entry.links.end()), entry.links.end());
+  if (entry.links.size() + entry.sensors.size() != 1) return;
+  if (entry.sensors.empty()) {
+    const Link& link = graph_.links()[static_cast<std::size_t>(entry.links.front())];
+    entry.link_name = nodes_[static_cast<std::size_t>(link.from)] + "-" + nodes_[static_cast<std::size_t>(link.to)];
+  } else {
+    entry.node_name = nodes_[static_cast<std::size_t>(entry.sensors.front().node)];
+  }
 }
 
-std::unique_ptr<Attack> Adversary::make(const std::string& type, const std::string& id, const Json& params, const std::string& pointer) const {
-  const auto* entry = Registry<AttackMake>::find(type);
-  if (entry == nullptr) {
-    const std::string near = nearest(type, Registry<AttackMake>::ids());
-    throw InputError(pointer + "/type", fmt::format("there is no attack \"{}\"{}", type, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, const std::string& pointer) const {
+  const auto* kind = Registry<AttackMake>::find(entry.type);
+  if (kind == nullptr) {
+    const std::string near = nearest(entry.type, Registry<AttackMake>::ids());
+    throw InputError(pointer + "/type",
+                     fmt::format("there is no attack \"{}\"{}", entry.type, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
   std::vector<Problem> problems;
-  const Json complete = entry->params.complete(params, pointer + "/params", problems);
+  const Json complete = kind->params.complete(given, pointer + "/params", problems);
   if (!problems.empty()) throw InputError(std::move(problems));
-  return under(pointer + "/params", [&] { return entry->make(Params(complete), {id, seed_, message_}); });
+  AttackContext context{entry.id, seed_, entry.links.empty() ? 0 : message_, {}};
+  for (const SensorPlace& place : entry.sensors) {
+    context.readings.push_back(place.channel >= 0 ? 1 : static_cast<int>(channels_[static_cast<std::size_t>(place.node)].size()));
+  }
+  auto attack = under(pointer + "/params", [&] { return kind->make(Params(complete), context); });
+  if (!entry.links.empty() && !attack->acts_on(ChannelKind::link)) {
+    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on sensors, not on links", entry.type), "sensor:NODE or sensor:NODE.CHANNEL");
+  }
+  if (!entry.sensors.empty() && !attack->acts_on(ChannelKind::sensor)) {
+    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on links, not on sensors", entry.type), "link:* or link:FROM-TO");
+  }
+  return attack;
 }
 
 void Adversary::add(const std::string& id, const Json& document, bool by_hand, const std::string& pointer, std::int64_t now) {
@@ -79,44 +121,49 @@ void Adversary::add(const std::string& id, const Json& document, bool by_hand, c
   entry.params = document.value("params", Json::object());
   entry.by_hand = by_hand;
   entry.enabled = document.value("enabled", true);
-  entry.links = places(document.value("on", Json::array({"link:*"})), pointer + "/on");
-  if (entry.links.size() == 1) {
-    const Link& link = graph_.links()[static_cast<std::size_t>(entry.links.front())];
-    entry.place = nodes_[static_cast<std::size_t>(link.from)] + "-" + nodes_[static_cast<std::size_t>(link.to)];
-  }
+  find_places(document.value("on", Json::array({"link:*"})), pointer + "/on", entry);
   entry.from = read_tick(document, "from", pointer).value_or(now);
   entry.to = read_tick(document, "to", pointer);
   if (entry.to && *entry.to < entry.from) {
     throw InputError(pointer + "/to", fmt::format("to is {}; the attack would end before it begins, at {}", *entry.to, entry.from),
                      fmt::format(">= {}", entry.from));
   }
-  entry.attack = make(entry.type, id, entry.params, pointer);
-  entries_.push_back(std::move(entry));
+  entry.attack = make(entry, entry.params, pointer);
+  const auto later = [&](const Entry& other) { return other.from != entry.from ? other.from > entry.from : other.id > entry.id; };
+  entries_.insert(std::find_if(entries_.begin(), entries_.end(), later), std::move(entry));
 }
 
-void Adversary::act(std::int64_t k, LinkEffects& effects, Sink& sink) {
+void Adversary::mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const {
+  Mark mark;
+  mark.k = k;
+  mark.type = MarkType::attack;
+  mark.edge = entry.acting ? MarkEdge::begin : MarkEdge::end;
+  mark.id = entry.id;
+  mark.link = entry.link_name;
+  mark.node = entry.node_name;
+  mark.code = entry.type;
+  if (entry.links.size() > 1) mark.detail = fmt::format("{} links", entry.links.size());
+  if (entry.sensors.size() > 1) mark.detail += fmt::format("{}{} sensors", mark.detail.empty() ? "" : ", ", entry.sensors.size());
+  sink.mark(mark);
+}
+
+void Adversary::act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, Sink& sink) {
   for (Entry& entry : entries_) {
     const bool acts = entry.enabled && k >= entry.from && (!entry.to || k <= *entry.to);
     if (acts != entry.acting) {
       entry.acting = acts;
-      Mark mark;
-      mark.k = k;
-      mark.type = MarkType::attack;
-      mark.edge = acts ? MarkEdge::begin : MarkEdge::end;
-      mark.id = entry.id;
-      mark.link = entry.place;
-      mark.code = entry.type;
-      if (entry.place.empty()) mark.detail = fmt::format("{} links", entry.links.size());
-      sink.mark(mark);
+      mark_edge(k, entry, sink);
     }
-    if (acts) entry.attack->act(k, entry.links, effects);
+    if (!acts) continue;
+    if (!entry.links.empty()) entry.attack->act(k, entry.links, links);
+    if (!entry.sensors.empty()) entry.attack->tamper(k, entry.sensors, sensors);
   }
 }
 
 std::vector<LinkRates> Adversary::rates(const Graph& graph) const {
   std::vector<LinkRates> base(graph_.links().size());
   for (const Entry& entry : entries_) {
-    if (entry.by_hand || !entry.enabled) continue;
+    if (entry.by_hand || !entry.enabled || entry.links.empty()) continue;
     const LinkRates mine = entry.attack->rates();
     for (const int link : entry.links) {
       LinkRates& rate = base[static_cast<std::size_t>(link)];
@@ -163,7 +210,7 @@ void Adversary::retune(const std::string& id, const std::string& param, const Js
   }
   Json params = entry->params;
   params[param] = value;
-  entry->attack = make(entry->type, id, params, pointer);
+  entry->attack = make(*entry, params, pointer);
   entry->params = std::move(params);
 }
 

@@ -18,14 +18,16 @@ class Adversary {
  public:
   Adversary() = default;
   /// `document`: the scenario's "adversary". Links are those of `graph`, the graph the run starts with: a draw's index is the link's
-  /// place there, so that a later change of the graph moves no draw.
-  Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes, std::uint64_t seed, int message);
+  /// place there, so that a later change of the graph moves no draw. `channels`: the names of each node's sensor channels.
+  Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes,
+            const std::vector<std::vector<std::string>>& channels, std::uint64_t seed, int message);
   Adversary(const Adversary& other);
   Adversary(Adversary&&) noexcept = default;
   Adversary& operator=(Adversary&&) noexcept = default;
 
-  /// Decides tick k for every link and marks attacks that begin or end with it.
-  void act(std::int64_t k, LinkEffects& effects, Sink& sink);
+  /// Decides tick k for every link and sensor and marks attacks that begin or end with it. Attacks act in the order of their starts, then
+  /// ids, so that where one replaces another the later start wins.
+  void act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, Sink& sink);
   /// What the document's attacks publish of their statistics, one a link. Attacks started by hand publish nothing.
   std::vector<LinkRates> rates(const Graph& graph) const;
 
@@ -44,7 +46,8 @@ class Adversary {
     std::unique_ptr<Attack> attack;
     Json params;
     std::vector<int> links;
-    std::string place;  ///< for marks: "2-5", or "" for several
+    std::vector<SensorPlace> sensors;
+    std::string link_name, node_name;  ///< for marks: "2-5" or "3"; empty where it acts on several
     std::int64_t from = 1;
     std::optional<std::int64_t> to;  ///< last tick it acts
     bool enabled = true;
@@ -52,13 +55,18 @@ class Adversary {
     bool acting = false;
   };
   void add(const std::string& id, const Json& entry, bool by_hand, const std::string& pointer, std::int64_t now);
-  std::vector<int> places(const Json& on, const std::string& pointer) const;
-  std::unique_ptr<Attack> make(const std::string& type, const std::string& id, const Json& params, const std::string& pointer) const;
+  void find_places(const Json& on, const std::string& pointer, Entry& entry) const;
+  int find_link(const std::string& from, const std::string& to) const;
+  SensorPlace find_sensor(const std::string& node, const std::string& channel, const std::string& pointer) const;
+  void mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const;
+  /// The attack itself, with the parameters of `entry`. Throws InputError under `pointer`.
+  std::unique_ptr<Attack> make(const Entry& entry, const Json& params, const std::string& pointer) const;
   Entry* find(const std::string& id);
 
   std::vector<Entry> entries_;
   Graph graph_;
   std::vector<std::string> nodes_;
+  std::vector<std::vector<std::string>> channels_;
   std::uint64_t seed_ = 0;
   int message_ = 0;
 };

@@ -85,7 +85,12 @@ Run::State::State(const Scenario& given, RunOptions options)
   if (trace) check_trace(document);
   set_world(document);
   find_columns();
-  adversary = Adversary(document.value("adversary", Json::object()), base, nodes, seed, plant->states());
+  std::vector<std::vector<std::string>> channels;
+  for (const auto& sensor : sensors) {
+    channels.emplace_back();
+    for (const Component& channel : sensor->channels()) channels.back().push_back(channel.name);
+  }
+  adversary = Adversary(document.value("adversary", Json::object()), base, nodes, channels, seed, plant->states());
   set_lanes(document);
   if (trace) set_recorded_lanes();
   declare_signals();
@@ -138,6 +143,10 @@ void Run::State::set_world(const Json& document) {
   for (std::size_t l = 0; l < base_of.size(); ++l) base_of[l] = static_cast<int>(l);
   if (!base.connected() && !base.links().empty()) warnings.emplace_back("the network is not connected: its parts never hear of each other");
   effects.resize(n, static_cast<int>(base.links().size()));
+  std::vector<int> sizes;
+  for (const auto& sensor : sensors) sizes.push_back(sensor->size());
+  sensor_effects.resize(sizes);
+  received = readings;
   process_noise = Draws(seed, "plant");
   input = Eigen::VectorXd::Constant(plant->inputs(), kMissing);
   noise = Eigen::VectorXd::Zero(n);
@@ -215,9 +224,12 @@ void Run::State::find_columns() {
   for (const Component& c : plant->input()) columns.input.push_back(find("input." + c.name));
   bool any = false;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    columns.sensor.emplace_back();
+    for (auto* group : {&columns.sensor, &columns.sent, &columns.tampered}) group->emplace_back();
     for (const Component& c : sensors[i]->channels()) {
-      columns.sensor.back().push_back(find("sensor." + nodes[i] + "." + c.name));
+      const std::string name = "sensor." + nodes[i] + "." + c.name;
+      columns.sensor.back().push_back(find(name));
+      columns.sent.back().push_back(find(name + ".sent"));
+      columns.tampered.back().push_back(find(name + ".injected"));
       any = any || columns.sensor.back().back() >= 0;
     }
   }
@@ -252,7 +264,11 @@ void Run::State::declare_signals() {
   for (const Component& c : plant->input()) add("input." + c.name, c.unit, SignalKind::scalar, "", "");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     slots.sensor.push_back(catalogue.size());
-    for (const Component& c : sensors[i]->channels()) add("sensor." + nodes[i] + "." + c.name, c.unit, SignalKind::scalar, nodes[i], "");
+    for (const Component& c : sensors[i]->channels()) {
+      for (const char* form : {"", ".sent", ".injected"}) {
+        add("sensor." + nodes[i] + "." + c.name + form, c.unit, SignalKind::scalar, nodes[i], "");
+      }
+    }
   }
   for (const Link& link : base.links()) {
     const std::string id = nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];

@@ -18,7 +18,7 @@ namespace vigil {
 /// Where a trace's columns stand, -1: not there.
 struct TraceColumns {
   std::vector<int> truth, input;
-  std::vector<std::vector<int>> sensor;    ///< node, channel
+  std::vector<std::vector<int>> sensor, sent, tampered;  ///< node, channel: as received, honest, added by the adversary
   std::vector<int> link_state;             ///< base link
   std::vector<std::vector<int>> injected;  ///< base link, component
 };
@@ -26,7 +26,7 @@ struct TraceColumns {
 /// Ids of the world's signals.
 struct WorldSlots {
   int truth = 0, input = 0;
-  std::vector<int> sensor;  ///< first channel, one a node
+  std::vector<int> sensor;  ///< one a node: received, honest (.sent) and added (.injected) of the first channel, then of the next
   std::vector<int> link;    ///< state, then injected components, then strength; one a base link
 };
 
@@ -66,8 +66,10 @@ struct Run::State {
 
   std::int64_t k = -1;
   Eigen::VectorXd truth, next_truth, input, noise;
-  Readings readings;
+  Readings readings;  ///< as they leave the sensors
+  Readings received;  ///< as they arrive, after the adversary
   LinkEffects effects;
+  SensorEffects sensor_effects;
   Frame frame;
 
  private:
@@ -82,6 +84,8 @@ struct Run::State {
   void advance_world();
   void sense();
   void override_links();
+  void override_sensors();
+  void deliver_readings();
   void publish_world();
 
   void set_params(const Json& params);

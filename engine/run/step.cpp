@@ -20,9 +20,12 @@ void Run::State::step(Sink& sink) {
     advance_world();
     sense();
     effects.clear();
-    adversary.act(k, effects, sink);
+    sensor_effects.clear();
+    adversary.act(k, effects, sensor_effects, sink);
     if (trace) override_links();
-    for (Lane& lane : lanes) lane.tick(k, graph, base_of, effects, input, readings);
+    deliver_readings();
+    if (trace) override_sensors();
+    for (Lane& lane : lanes) lane.tick(k, graph, base_of, effects, input, lane.spared() ? readings : received);
   }
   std::fill(frame.values.begin(), frame.values.end(), kMissing);
   frame.k = k;
@@ -73,6 +76,37 @@ void Run::State::sense() {
   }
 }
 
+/// What arrives: the adversary adds, and angles are wrapped after that.
+void Run::State::deliver_readings() {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    received[i] = readings[i];
+    if (sensor_effects.kind[i] == 0) continue;
+    for (Eigen::Index c = 0; c < received[i].size(); ++c) {
+      const double period = sensors[i]->channels()[static_cast<std::size_t>(c)].period;
+      received[i][c] = wrap(readings[i][c] + sensor_effects.injected[i][c], period);
+    }
+  }
+}
+
+/// A sensor whose `injected` columns the trace has bypasses the adversary: the reading is there as received, and beside it the honest one.
+void Run::State::override_sensors() {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    bool described = false;
+    for (const int column : columns.tampered[i]) described = described || column >= 0;
+    if (!described) continue;
+    sensor_effects.kind[i] = 0;
+    for (Eigen::Index c = 0; c < readings[i].size(); ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      const auto read = [&](int column) { return column < 0 ? kMissing : trace->at(k, column); };
+      const double added = read(columns.tampered[i][channel]), honest = read(columns.sent[i][channel]);
+      received[i][c] = read(columns.sensor[i][channel]);
+      readings[i][c] = std::isfinite(honest) ? honest : received[i][c];
+      sensor_effects.injected[i][c] = std::isfinite(added) ? added : 0;
+      if (sensor_effects.injected[i][c] != 0) sensor_effects.kind[i] = 1;
+    }
+  }
+}
+
 /// Channels that the trace describes bypass the adversary.
 void Run::State::override_links() {
   for (std::size_t l = 0; l < columns.link_state.size(); ++l) {
@@ -98,7 +132,12 @@ void Run::State::publish_world() {
   if (k == 0) return;
   for (Eigen::Index c = 0; c < input.size(); ++c) values[slots.input + c] = input[c];
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    for (Eigen::Index c = 0; c < readings[i].size(); ++c) values[slots.sensor[i] + c] = readings[i][c];
+    for (Eigen::Index c = 0; c < readings[i].size(); ++c) {
+      double* at = values + slots.sensor[i] + 3 * c;
+      at[0] = received[i][c];
+      if (readings[i][c] != received[i][c]) at[1] = readings[i][c];
+      at[2] = sensor_effects.injected[i][c];
+    }
   }
   for (std::size_t l = 0; l < slots.link.size(); ++l) {
     const int slot = slots.link[l];

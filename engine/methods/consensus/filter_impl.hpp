@@ -69,13 +69,16 @@ void Filter<N, M>::predict(const Eigen::VectorXd& input, FaultReport& report) {
     NodeState& node = nodes_[i];
     plant_->jacobian(node.x, input, F);
     plant_->advance(node.x, input, node.xp);  // (3)
-    if (!predict_bound(node, F, settings_.constants, graph_.degree(static_cast<int>(i)))) {
+    const bool finite = predict_bound(node, F, settings_.constants, graph_.degree(static_cast<int>(i)));
+    judge(static_cast<int>(i), report);
+    const bool stopped = settings_.constants.guard == Guard::strict && !(node.feasible28 && node.feasible29);
+    if (stopped) return;  // a bound at the very limit is infinite as well: the condition is the better word
+    if (!finite) {
       if (std::string* text = report.stop(static_cast<int>(i), "diverged")) {
         *text = fmt::format("the prediction bound of node {} is not finite at step {}", ids_[i], tick_);
       }
       return;
     }
-    judge(static_cast<int>(i), report);
   }
 }
 

@@ -114,6 +114,7 @@ bool predict_bound(Node<N, M>& node, const typename Node<N, M>::MatN& F, const C
 
   VecN lambda = node.phi_values;
   node.feasible28 = lambda[0] > 0 && lambda[last] < constants.limit28();
+  node.feasible29 = true;  // judged below, unless there is nothing finite to judge
   double sigma = constants.sigma;
   if (constants.guard == Guard::clip) lambda = lambda.cwiseMax(floor).cwiseMin(constants.rho * constants.limit28());
   if (constants.guard == Guard::adapt) sigma = std::min(sigma, constants.rho / ((1 + constants.eps) * lambda[last]));
