@@ -69,9 +69,11 @@ describe('by keyboard alone', () => {
     await page.keyboard.press('t');
     await until('t changes the theme', async () => (await page.locator('html').getAttribute('data-theme')) !== theme);
 
-    await page.keyboard.press('g');
-    await page.keyboard.press('r');
-    await page.waitForURL(/\/runs(\?|$)/);
+    await until('g r leads to the runs', async () => {
+      await page.keyboard.press('g');
+      await page.keyboard.press('r');
+      return new URL(page.url()).pathname === '/runs';
+    });
     await page.locator(`tr[data-run="${id}"]`).waitFor();
     await tabTo(page, 'the query', () => document.activeElement?.id === 'run-query');
     await page.keyboard.type('state:running');

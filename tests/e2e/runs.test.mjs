@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
-import { openBrowser, openPage, refused } from './support/browser.mjs';
+import { holdClock, openBrowser, openPage, refused } from './support/browser.mjs';
 import { button } from './support/live.mjs';
 import { call, runUntil, startServer, until } from './support/server.mjs';
 
@@ -159,15 +159,21 @@ describe('runs', () => {
   test('deletes with time to think again', async () => {
     const view = await openPage(browser, server);
     const { page } = view;
+    await holdClock(page);
     await view.goto('/runs');
     await page.getByRole('checkbox', { name: `Select run ${ids[4]}`, exact: true }).check();
     await button(page, 'Delete').click();
     await page.locator(`tr[data-run="${ids[4]}"]`).waitFor({ state: 'detached' });
+    await page.clock.runFor(9_000);
+    assert.equal((await call(server, 'GET', `/runs/${ids[4]}`)).id, ids[4], 'nothing was deleted');
     await button(page, 'Undo').click();
     await page.locator(`tr[data-run="${ids[4]}"]`).waitFor();
-    assert.equal((await call(server, 'GET', `/runs/${ids[4]}`)).id, ids[4], 'nothing was deleted');
+    await page.clock.runFor(20_000);
+    assert.equal((await call(server, 'GET', `/runs/${ids[4]}`)).id, ids[4], 'it was taken back for good');
     await page.getByRole('checkbox', { name: `Select run ${ids[4]}`, exact: true }).check();
     await button(page, 'Delete').click();
+    await page.locator(`tr[data-run="${ids[4]}"]`).waitFor({ state: 'detached' });
+    await page.clock.runFor(10_000);
     await until('the server has deleted it', async () => (await call(server, 'GET', '/runs')).items.every((run) => run.id !== ids[4]));
     await view.close();
   });

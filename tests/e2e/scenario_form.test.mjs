@@ -1,7 +1,7 @@
 // From the parameter form to a running experiment.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { openBrowser, openPage, refused } from './support/browser.mjs';
+import { holdClock, openBrowser, openPage, refused } from './support/browser.mjs';
 import { button, tickPast } from './support/live.mjs';
 import { call, startServer, until } from './support/server.mjs';
 
@@ -142,6 +142,7 @@ describe('scenario form', () => {
     await button(page, 'Save').click();
     await page.waitForURL(/\/scenarios\/mine/);
     await page.getByRole('heading', { level: 1, name: title }).waitFor();
+    await holdClock(page);
     await view.goto('/scenarios');
     await page.getByRole('heading', { level: 3, name: title }).waitFor();
     assert.equal(await page.locator('main img, header img').count(), 0);
@@ -152,7 +153,10 @@ describe('scenario form', () => {
     await button(page, 'Undo').click();
     await page.locator('[data-scenario="mine"]').waitFor();
     assert.equal((await call(server, 'GET', '/scenarios/mine')).lanes?.consensus?.params?.tau, 0.03);
+    await page.clock.runFor(20_000);
     await button(page, 'Delete mine').click();
+    await page.locator('[data-scenario="mine"]').waitFor({ state: 'detached' });
+    await page.clock.runFor(10_000);
     await until('the server has forgotten it', async () => !(await call(server, 'GET', '/scenarios')).items.some((one) => one.id === 'mine'));
     await view.close();
   });

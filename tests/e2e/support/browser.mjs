@@ -58,6 +58,12 @@ export function address(server, path, lang, theme) {
   return url.href;
 }
 
+/** Makes the page's timers wait for page.clock.runFor(): no busy machine can be too slow for them. Before the first goto. */
+export async function holdClock(page) {
+  await page.clock.install();
+  await page.clock.pauseAt(new Date(Date.now() + 1000));
+}
+
 /** For a call that the test wants refused: browsers write every 4xx to the console. */
 export const refused = (status) => new RegExp(`status of ${status}`);
 /** For the time in which there is no server. */
