@@ -81,8 +81,13 @@ describe('rasters', () => {
     expect([...columnsOf(one, 0, 1, 9, true)]).toEqual([0, 0, 0, 0, 0, 0, 0, 0, 0]);
   });
 
+  it('give the ticks that a thinned frame stands for its value, and missing ticks none', () => {
+    const one = { ...series([0, 3, 6], [1, 2, 1]), joined: Uint8Array.of(0, 1, 0) };
+    expect([...columnsOf(one, 0, 1, 7)]).toEqual([1, 2, 2, 2, NaN, NaN, 1]);
+  });
+
   it('leave missing values and what is outside empty', () => {
-    expect([...columnsOf(series([-3, 1, 99], [1, NaN, 1]), 0, 1, 3)]).toEqual([NaN, NaN, NaN]);
+    expect([...columnsOf({ ...series([-3, 1, 99], [1, NaN, 1]), joined: Uint8Array.of(0, 0, 0) }, 0, 1, 3)]).toEqual([NaN, NaN, NaN]);
   });
 
   it('keep cells at least two pixels wide', () => {

@@ -24,16 +24,22 @@ export function columnsOf(series: Series, from: number, width: number, columns: 
   for (let i = 0; i < series.k.length; i++) {
     const value = least ? series.lo[i]! : series.hi[i]!;
     if (Number.isNaN(value)) continue;
-    const next = series.k[i + 1];
-    const first = Math.floor((series.k[i]! - from) / width);
-    // A reduced window's points stand for all ticks up to the next point.
-    const last = next !== undefined && series.joined[i + 1] && series.lo !== series.hi ? Math.ceil((next - from) / width) - 1 : first;
-    for (let c = Math.max(0, first); c <= Math.min(columns - 1, Math.max(first, last)); c++) {
+    const [begin, end] = ticksOf(series, i);
+    const last = Math.floor((end - from) / width);
+    for (let c = Math.max(0, Math.floor((begin - from) / width)); c <= Math.min(columns - 1, last); c++) {
       const known = out[c]!;
       if (Number.isNaN(known) || (least ? value < known : value > known)) out[c] = value;
     }
   }
   return out;
+}
+
+/** First and last tick that point i stands for: of reduced samples up to the next point, of a thinned frame back to the one before. */
+function ticksOf(series: Series, i: number): [number, number] {
+  const k = series.k[i]!;
+  if (series.lo === series.hi) return [series.joined[i] ? Math.min(k, series.k[i - 1]! + 1) : k, k];
+  const next = series.k[i + 1];
+  return [k, next !== undefined && series.joined[i + 1] ? Math.max(k, next - 1) : k];
 }
 
 /** Ticks a column stands for: one while cells are at least 2 px wide, else as many as keep them so. */

@@ -85,6 +85,12 @@ export class Source {
     return null;
   }
 
+  /** What the rings have of a signal after tick `from`; never asks for more. */
+  recent(name: string, from: number): Series {
+    const found = this.ringOf(name);
+    return found ? ringSeries(found.ring, found.column, from, this.head) : emptySeries;
+  }
+
   /** What is known of a signal between two ticks. What is not known yet is asked for, and comes with a later drawing. */
   get(name: string, from: number, to: number): Series {
     if (!this.byName.has(name)) return emptySeries;

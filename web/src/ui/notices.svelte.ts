@@ -1,4 +1,4 @@
-/// Short messages at the lower edge: what was done, what failed.
+/// Short messages below the header: what was done, what failed.
 export interface Notice {
   id: number;
   text: string;

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { Mark, RunDetail, Signal } from '../../api/types';
 import { csvText } from './export';
 import { squared } from './lines';
-import { activeAttacks, isMark, mergeMarks, neighbour } from './mark_order';
+import { activeAttacks, groupMarks, isMark, mergeMarks, neighbour } from './mark_order';
 import { runMetric } from './metrics';
 import { laneOf, makeModel } from './model';
 import { planeBox } from './plane_draw';
@@ -48,6 +48,17 @@ describe('marks', () => {
   it('say which attacks go on', () => {
     const marks = [mark(1, { id: 'links', edge: 'begin' }), mark(4, { id: 'a1', edge: 'begin' }), mark(9, { id: 'a1', edge: 'end' }), mark(9, { id: 'a2', edge: 'begin' })];
     expect(activeAttacks(marks).map((one) => one.id)).toEqual(['links', 'a2']);
+  });
+
+  it('that say the same of several nodes are one line, newest first', () => {
+    const fault = (node: string, k = 2): Mark => mark(k, { type: 'fault', edge: 'begin', lane: 'a', code: 'infeasible_28', node, detail: node });
+    const groups = groupMarks([mark(1, { id: 'links' }), fault('1'), fault('2'), fault('3'), fault('1', 4)], 10);
+    expect(groups.map((group) => [group.mark.k, group.nodes, group.count])).toEqual([
+      [4, ['1'], 1],
+      [2, ['1', '2', '3'], 3],
+      [1, [], 1],
+    ]);
+    expect(groupMarks([mark(1), mark(2), mark(3)], 2).map((group) => group.mark.k)).toEqual([3, 2]);
   });
 
   it('are stepped through', () => {

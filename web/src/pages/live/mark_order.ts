@@ -45,3 +45,32 @@ export function neighbour(marks: readonly Mark[], k: number, way: -1 | 1): Mark 
   for (let i = marks.length - 1; i >= 0; i--) if (marks[i]!.k < k) return marks[i]!;
   return null;
 }
+
+export interface MarkGroup {
+  mark: Mark;
+  /** Of all marks in the group. */
+  nodes: string[];
+  links: string[];
+  count: number;
+}
+
+/** Marks of one tick that say the same of several nodes or links, as one; newest first. */
+export function groupMarks(marks: readonly Mark[], most: number): MarkGroup[] {
+  const groups: MarkGroup[] = [];
+  const byKey = new Map<string, MarkGroup>();
+  for (let i = marks.length - 1; i >= 0; i--) {
+    const mark = marks[i]!;
+    const name = [mark.k, mark.type, mark.edge ?? '', mark.id ?? '', mark.lane ?? '', mark.code ?? '', mark.node ? 'node' : mark.link ? 'link' : (mark.detail ?? '')].join('|');
+    let group = byKey.get(name);
+    if (!group) {
+      if (groups.length === most) break;
+      group = { mark, nodes: [], links: [], count: 0 };
+      byKey.set(name, group);
+      groups.push(group);
+    }
+    group.count++;
+    if (mark.node) group.nodes.unshift(mark.node);
+    if (mark.link) group.links.unshift(mark.link);
+  }
+  return groups;
+}

@@ -5,7 +5,7 @@ import { isLive, type Mark, type RunDetail, type RunState } from '../../api/type
 import { loop } from '../../chart/loop';
 import { Ring } from '../../data/ring';
 import { Source } from '../../data/source';
-import type { Hello, StreamEvent, StreamState } from '../../stream/events';
+import type { Frame, Hello, StreamEvent, StreamState } from '../../stream/events';
 import { listen } from '../../stream/hub';
 import { makeModel, laneOf, type RunModel } from './model';
 import { MarkList } from './marks.svelte';
@@ -14,6 +14,9 @@ import type { LiveView } from './view.svelte';
 const refreshMs = 2000;
 const statusMs = 250;
 const maxGap = 12_000;
+const fillAgainMs = 700;
+const thinnedMs = 2000;
+const mostFramesPerSecond = 60;
 
 export interface Status {
   head: number;
@@ -42,6 +45,7 @@ export class Session {
   private gaps = 0;
   private t = 0;
   private closed = false;
+  private readonly lacking = new Map<Ring, { from: number; to: number }>();
 
   constructor(
     readonly id: string,
@@ -130,6 +134,7 @@ export class Session {
     const ring = which === 'overview' ? this.overview : this.lane?.ring;
     if (event.type === 'frame' && ring) {
       if (!ring.push(event.frame)) return;
+      this.thinned(ring, event.frame);
       if (which !== 'overview') return;
       source.head = Math.max(source.head, event.frame.k);
       this.t = event.frame.t;
@@ -171,15 +176,38 @@ export class Session {
     void this.fill(ring, from, hello.from - 1);
   }
 
-  private async fill(ring: Ring, from: number, to: number): Promise<void> {
-    if (to < from || to - from > maxGap) return;
+  /** Fetches what the ring lacks. The newest ticks reach the log a moment after the stream: asked again until they are there. */
+  private async fill(ring: Ring, from: number, to: number, tries = 6): Promise<void> {
+    if (this.closed || to < from || to - from > maxGap) return;
+    let reached = from - 1;
     try {
-      ring.insert(await this.source!.rows(ring, from, to));
+      const rows = await this.source!.rows(ring, from, to);
+      ring.insert(rows);
+      reached = rows.at(-1)?.k ?? reached;
       this.source?.inserted();
     } catch {
-      // The hatched gap stays: it is what is known.
+      // The hatched gap stays for now: it is what is known.
+      reached = from - 1;
+    }
+    if (reached < to && tries > 1) setTimeout(() => void this.fill(ring, reached + 1, to, tries - 1), fillAgainMs);
+  }
+
+  /** Ticks that a slow connection thinned out are fetched later, together. A run faster than any screen stays thinned. */
+  private thinned(ring: Ring, frame: Frame): void {
+    const pace = this.run?.pace;
+    if (frame.n < 2 || typeof pace !== 'number' || pace > mostFramesPerSecond) return;
+    const waiting = this.lacking.get(ring);
+    const from = frame.k - frame.n + 1;
+    if (waiting) {
+      waiting.to = frame.k - 1;
       return;
     }
+    const range = { from, to: frame.k - 1 };
+    this.lacking.set(ring, range);
+    setTimeout(() => {
+      this.lacking.delete(ring);
+      void this.fill(ring, range.from, range.to);
+    }, thinnedMs);
   }
 
   private mark(mark: Mark): void {

@@ -64,12 +64,13 @@ export class LiveView {
   }
   /** Nearer (factor below 1) or farther. A window that follows stays at the newest tick. */
   zoom(factor: number, head: number, about?: number): void {
-    if (this.following && about === undefined) {
+    if (this.following && about === undefined && this.cursor === null) {
       this.set({ width: Math.round(Math.min(Math.max(10, this.width * factor), Math.max(10, head))) });
       return;
     }
     const { from, to } = this.window(head);
-    this.set({ range: zoomed(from, to, factor, about ?? (from + to) / 2, head) });
+    const at = this.at !== null && this.at >= from && this.at <= to ? this.at : (from + to) / 2;
+    this.set({ range: zoomed(from, to, factor, about ?? at, head) });
   }
   move(by: number, head: number): void {
     const { from, to } = this.window(head);
