@@ -46,7 +46,7 @@ struct Recording {
 Recording kilobyte() {
   Recording recording;
   recording.name = "1 kB";
-  constexpr int kSignals = 108;  // of six digits each: 1 kB with everything around them
+  constexpr int kSignals = 112;  // of six digits each: 1 kB with everything around them
   for (int i = 0; i < kSignals; ++i) {
     Signal signal;
     signal.name = "s" + std::to_string(i);

@@ -3,9 +3,45 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace vigil::bench {
+
+/// Viewers of one stream, read by whoever calls receive.
+class Viewers {
+ public:
+  explicit Viewers(int count);
+  ~Viewers();
+  Viewers(const Viewers&) = delete;
+  Viewers& operator=(const Viewers&) = delete;
+
+  void connect(int port, const std::string& path);  ///< to 127.0.0.1
+  void receive(int milliseconds);                   ///< waits at most that long, reads what there is
+  void receive_for(double seconds);
+  int started() const { return started_; }  ///< that got something
+  std::uint64_t frames() const { return frames_; }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  struct Viewer {
+    int socket = -1;
+    bool started = false;
+    std::size_t matched = 0;  ///< bytes of a frame's mark at the end of what came
+  };
+  void take(Viewer& viewer);
+  void count_marks(Viewer& viewer, std::string_view text);
+
+  std::vector<Viewer> viewers_;
+  int epoll_;
+  std::vector<char> buffer_;
+  int started_ = 0;
+  std::uint64_t frames_ = 0;
+  std::uint64_t bytes_ = 0;
+};
 
 struct Load {
   int viewers = 1000;
