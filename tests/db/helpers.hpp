@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -46,6 +47,9 @@ inline bool eventually(const std::function<bool()>& met) {
   }
   return true;
 }
+
+inline constexpr WallTime kSecond = 1'000'000'000;
+inline constexpr WallTime kDay = 86400 * kSecond;
 
 inline Catalogue catalogue(int width) {
   Catalogue all;
@@ -166,5 +170,28 @@ inline std::string all_of(const MaintenanceReport& report) {
   for (const auto& sentence : report.sentences) text += sentence + "\n";
   return text;
 }
+
+/// A log whose clock the test sets.
+class ClockedLog : public testing::Test {
+ protected:
+  LogOptions options() {
+    LogOptions o;
+    o.clock = [this] { return clock.load(); };
+    return o;
+  }
+  std::string path() const { return folder.file("a.db"); }
+  void end(RunId run, WallTime when, std::vector<std::string> tags = {}) {
+    RunUpdate update;
+    update.state = "finished";
+    update.ended = when;
+    update.tags = std::move(tags);
+    writer.finish(run, update);
+  }
+
+  Folder folder;
+  std::atomic<WallTime> clock{1000 * kDay};
+  LogWriter writer{path(), options()};
+  LogReader reader{path()};
+};
 
 }  // namespace vigil::test
