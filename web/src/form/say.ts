@@ -18,9 +18,24 @@ export function rangeText(low: number | undefined, high: number | undefined, ope
   return '';
 }
 
+/** A limit so far away that it is no help to read. */
+const kFar = 1e12;
+
 export function fieldRange(field: Field): string {
   const { low, high, openLow, openHigh } = rangeOf(field);
-  return rangeText(low, high, openLow, openHigh);
+  return rangeText(low, high !== undefined && high >= kFar ? undefined : high, openLow, openHigh);
+}
+
+/** A default or another value in words. */
+export function spoken(field: Field, value: Json): string {
+  if (value === null) return emptyWord(field);
+  if (typeof value === 'boolean') return t(value ? 'on' : 'off');
+  return plain(value);
+}
+
+/** What null means for a field: nothing at all, or that Vigil decides. */
+export function emptyWord(field: Field): string {
+  return /\bnone\b/.test(field.meaning.en) ? t('none') : t('automatic');
 }
 
 function sizeText(least: number | undefined, most: number | undefined): string {
