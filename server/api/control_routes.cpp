@@ -81,7 +81,17 @@ void patch(Services& services, const HttpRequest& request, HttpResponse& respons
 void attack(Services& services, const HttpRequest& request, HttpResponse& response) {
   const Json body = request.json();
   check_members(body, {"id", "type", "on", "from", "to", "params"});
-  const Command command = live_run(request, services)->command({{"attack", body}});
+  Command command;
+  try {
+    command = live_run(request, services)->command({{"attack", body}});
+  } catch (const InputError& error) {
+    // The command wraps the body; the asker's pointers do not.
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (problem.pointer.rfind("/attack", 0) == 0) problem.pointer.erase(0, 7);
+    }
+    throw InputError(std::move(problems));
+  }
   const std::string attack_id = command.body.at("attack").at("id").get<std::string>();
   response.json({{"id", attack_id}, {"k", command.k}}, 201);
   response.set_header("Location", "/api/v1/runs/" + request.params.at("id") + "/attacks/" + attack_id);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "db/records.hpp"
+#include "engine/core/describe.hpp"
 #include "engine/core/input_error.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "server/cli/commands.hpp"
@@ -18,6 +19,17 @@ int complain(std::string sentence, int code) {
   }
   std::cerr << "vigil: " << sentence << std::endl;
   return code;
+}
+
+/// The command the user wrote, if it is none of ours: CLI11 would only say that one is missing.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == argv[1]) return {};
+    names.push_back(command->get_name());
+  }
+  return "there is no command " + in_quotes(argv[1]) + "; expected one of " + listed(names);
 }
 
 int carry_out(const Action& action) {
@@ -49,6 +61,7 @@ int run_command_line(int argc, char** argv) {
   add_lists(app, action);
   add_trace(app, action);
   add_db(app, action);
+  if (const std::string sentence = unknown_command(app, argc, argv); !sentence.empty()) return complain(sentence, kBadInput);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

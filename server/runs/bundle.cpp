@@ -44,6 +44,25 @@ std::vector<Command> read_commands(const Json& list) {
   return commands;
 }
 
+/// A run that has had every earlier command is what each is checked against.
+void check_commands(const RunOrder& order) {
+  RunOrder bare = order;
+  bare.commands.clear();
+  Run scratch = make_run(bare);
+  for (std::size_t i = 0; i < order.commands.size(); ++i) {
+    const Command& command = order.commands[i];
+    if (i > 0 && command.k < order.commands[i - 1].k) throw InputError(child("/commands", i), "the commands are not in the order of their ticks", "rising k");
+    try {
+      scratch.prepare(command.body);
+      scratch.apply(command);
+    } catch (const InputError& error) {
+      std::vector<Problem> problems = error.problems();
+      for (Problem& problem : problems) problem.pointer = child("/commands", i) + "/body" + problem.pointer;
+      throw InputError(std::move(problems));
+    }
+  }
+}
+
 std::vector<std::string> read_tags(const Json& json) {
   std::vector<std::string> tags;
   if (!holds(json, "tags", &Json::is_array)) return tags;
@@ -108,6 +127,7 @@ Bundle read_bundle(const Json& json) {
     bundle.trace_csv = required(json, "trace", json.at("trace").is_string(), "a CSV text or null").get<std::string>();
     order.trace = std::make_shared<const Trace>(Trace::from_csv(bundle.trace_csv));
   }
+  if (!order.commands.empty()) check_commands(order);
   // What ended by a command, a kill or its own steps ends again at the same tick, and says so.
   const std::string state = text_of(json, "state");
   if (state == "stopped" || state == "interrupted") order.end_state = "stopped";

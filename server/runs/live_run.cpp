@@ -43,8 +43,11 @@ std::shared_ptr<const RunStatus> LiveRun::status() const {
 void LiveRun::inside(std::function<void()> work) {
   // A request that was given up on must not be carried out later, behind the asker's back.
   const auto claimed = std::make_shared<std::atomic<bool>>(false);
-  std::packaged_task<void()> task([work = std::move(work), claimed] {
-    if (!claimed->exchange(true)) work();
+  std::packaged_task<void()> task([this, work = std::move(work), claimed] {
+    if (claimed->exchange(true)) return;
+    work();
+    // Published before the asker goes on, so that what he reads next is what he asked for.
+    if (started_) settle();
   });
   std::future<void> done = task.get_future();
   {

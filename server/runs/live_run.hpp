@@ -76,6 +76,7 @@ class LiveRun {
 
   void inside(std::function<void()> work);
   void serve();
+  void settle();  ///< makes known what a request has changed
   void main();
   void begin();
   void loop();

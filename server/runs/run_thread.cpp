@@ -79,12 +79,15 @@ void LiveRun::serve() {
       requests_.pop_front();
     }
     request();
-    const std::string state = paused_ ? "paused" : "running";
-    if (state == state_) {
-      publish(true);
-    } else {
-      enter(state);
-    }
+  }
+}
+
+void LiveRun::settle() {
+  const std::string state = paused_ ? "paused" : "running";
+  if (state == state_) {
+    publish(true);
+  } else {
+    enter(state);
   }
 }
 
