@@ -57,7 +57,8 @@ struct LinkRates {
 struct AttackContext {
   std::string id;        ///< names its draws
   std::uint64_t seed = 0;
-  int message = 0;             ///< size of what a link carries, the plant's states; 0: it acts on no link
+  int message = 0;             ///< size of what a link carries: the plant's states
+  bool on_links = true;        ///< it acts on some link
   std::vector<int> readings;   ///< sizes of what it acts on at sensors: a whole reading's channels, or 1
 };
 

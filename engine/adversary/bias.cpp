@@ -11,7 +11,7 @@ class Bias final : public Attack {
       : probability_(params.real("probability")),
         vector_(params.vector("vector")),
         branch_(context.seed, "adversary." + context.id + ".branch") {
-    if (context.message > 0) check_size(context.message, "a message");
+    if (context.on_links) check_size(context.message, "a message");
     for (const int size : context.readings) check_size(size, "what it acts on at a sensor");
   }
 

@@ -100,7 +100,7 @@ std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, c
   std::vector<Problem> problems;
   const Json complete = kind->params.complete(given, pointer + "/params", problems);
   if (!problems.empty()) throw InputError(std::move(problems));
-  AttackContext context{entry.id, seed_, entry.links.empty() ? 0 : message_, {}};
+  AttackContext context{entry.id, seed_, message_, !entry.links.empty(), {}};
   for (const SensorPlace& place : entry.sensors) {
     context.readings.push_back(place.channel >= 0 ? 1 : static_cast<int>(channels_[static_cast<std::size_t>(place.node)].size()));
   }

@@ -83,4 +83,16 @@ auto under(const std::string& prefix, Make&& make) {
   }
 }
 
+/// Runs `change` and puts `pointer` in place of those of an InputError it throws: for one value given by its path.
+template <class Change>
+void at_path(const std::string& pointer, Change&& change) {
+  try {
+    change();
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) problem.pointer = pointer;
+    throw InputError(std::move(problems));
+  }
+}
+
 }  // namespace vigil

@@ -93,7 +93,7 @@ void Run::State::set_param(const std::string& path, const Json& value) {
       if (const auto problem = entry->params.check(*declared, value, "/params/" + path)) throw InputError({*problem});
       Json changed = lane.params();
       changed[parts[3]] = value;
-      under("/params/" + path, [&] { lane.method().retune(Params(changed)); });
+      at_path("/params/" + path, [&] { lane.method().retune(Params(changed)); });
       lane.params() = std::move(changed);
       return;
     }
@@ -102,7 +102,7 @@ void Run::State::set_param(const std::string& path, const Json& value) {
   const bool attack = parts.size() == 4 && parts[0] == "adversary" && parts[2] == "params";
   const bool enabled = parts.size() == 3 && parts[0] == "adversary" && parts[2] == "enabled";
   if (!attack && !enabled) not_live(path);
-  under("/params", [&] { adversary.retune(parts[1], parts.back(), value); });
+  at_path("/params/" + path, [&] { adversary.retune(parts[1], parts.back(), value); });
   rewire_lanes();
 }
 

@@ -38,10 +38,13 @@ bool Run::done() const {
 Command Run::prepare(const Json& body) const {
   Command command{state_->k + 1, body};
   if (done()) throw InputError("", "the run has ended; nothing can be changed any more");
-  if (body.is_object() && body.contains("attack") && body["attack"].is_object() && !body["attack"].contains("id")) {
-    command.body["attack"]["id"] = state_->adversary.free_id();
-  }
   State trial(*state_);  // a command that fails must leave the run as it was
+  for (const Command& before : state_->pending) {
+    if (before.k <= command.k) trial.change(before, nullptr);
+  }
+  if (body.is_object() && body.contains("attack") && body["attack"].is_object() && !body["attack"].contains("id")) {
+    command.body["attack"]["id"] = trial.adversary.free_id();
+  }
   trial.change(command, nullptr);
   return command;
 }
