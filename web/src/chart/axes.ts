@@ -28,7 +28,7 @@ export function drawTickAxis(context: CanvasRenderingContext2D, g: Geometry): vo
   context.textAlign = 'center';
   context.lineWidth = 1;
   const bottom = g.height - g.bottom;
-  for (const k of ticks(g.from, g.to, plotWidth(g) / 90)) {
+  for (const k of ticks(g.from, g.to, plotWidth(g) / 90).filter(Number.isInteger)) {
     const x = Math.round(xOf(g, k)) + 0.5;
     context.strokeStyle = colour('grid');
     context.beginPath();

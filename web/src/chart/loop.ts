@@ -12,7 +12,6 @@ class Loop {
   private readonly observer: IntersectionObserver | null;
   private requested = false;
   private lastData = 0;
-  private skip = false;
   private readonly quiet = typeof matchMedia === 'function' ? matchMedia('(prefers-reduced-motion: reduce)') : null;
   private pending: ReturnType<typeof setTimeout> | null = null;
   /** Time the last drawing of all panels took, and a smoothed one, in ms. */
@@ -47,25 +46,19 @@ class Loop {
     requestAnimationFrame(() => this.run());
   }
 
-  /** For new data: once a second for who asked for less motion, every other time where drawing is slow. */
+  /** For new data: once a second for who asked for less motion, less often where drawing is slow. Never forgotten. */
   data(): void {
-    const now = performance.now();
-    if (this.quiet?.matches) {
-      const wait = this.lastData + quietMs - now;
-      if (wait > 0) {
-        this.pending ??= setTimeout(() => {
-          this.pending = null;
-          this.data();
-        }, wait);
-        return;
-      }
-    } else if (this.drawMs > budgetMs && !this.skip) {
-      this.skip = true;
+    const rest = this.quiet?.matches ? quietMs : this.drawMs > budgetMs ? 3 * this.drawMs : 0;
+    const wait = this.lastData + rest - performance.now();
+    if (wait <= 0) {
+      this.lastData = performance.now();
+      this.invalidate();
       return;
     }
-    this.skip = false;
-    this.lastData = now;
-    this.invalidate();
+    this.pending ??= setTimeout(() => {
+      this.pending = null;
+      this.data();
+    }, wait);
   }
 
   private run(): void {

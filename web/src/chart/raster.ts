@@ -8,7 +8,8 @@ export interface RasterRow {
   label: string;
   series: Series;
   /** Colour token and letter of a value; null: leave the cell empty. */
-  cell: (value: number) => { token: string; letter?: string; letterToken?: string } | null;
+  /** `several`: the value is the extreme of several ticks. */
+  cell: (value: number, several: boolean) => { token: string; letter?: string; letterToken?: string } | null;
   /** Where a column holds several ticks the least value stands for it, not the greatest: one failure must show. */
   least?: boolean;
   /** Share of the row's height, from its top: a row can be a thin stripe. */
@@ -63,11 +64,12 @@ export function drawRaster(context: CanvasRenderingContext2D, g: Geometry, rows:
   const image = inner.createImageData(columns, rows.length);
   const pixels = new Uint32Array(image.data.buffer);
   const tokens = new Map<string, number>();
+  const several = rows.map((row) => per > 1 || row.series.lo !== row.series.hi);
   const cells = rows.map((row) => columnsOf(row.series, from, per, columns, row.least));
   rows.forEach((row, r) => {
     for (let c = 0; c < columns; c++) {
       const value = cells[r]![c]!;
-      const cell = Number.isNaN(value) ? null : row.cell(value);
+      const cell = Number.isNaN(value) ? null : row.cell(value, several[r]!);
       if (!cell) continue;
       let pixel = tokens.get(cell.token);
       if (pixel === undefined) tokens.set(cell.token, (pixel = packed(colour(cell.token))));
@@ -126,7 +128,7 @@ function letters(
     context.font = `600 ${Math.min(11, span.height + 0.5)}px 'IBM Plex Mono', monospace`;
     for (let c = 0; c < columns; c++) {
       const value = cells[r]![c]!;
-      const cell = Number.isNaN(value) ? null : row.cell(value);
+      const cell = Number.isNaN(value) ? null : row.cell(value, row.series.lo !== row.series.hi);
       if (!cell?.letter) continue;
       context.fillStyle = colour(cell.letterToken ?? 'surface');
       context.fillText(cell.letter, left + (c + 0.5) * cellWidth, span.y + span.height / 2 + 0.5);

@@ -47,6 +47,24 @@ describe('where samples come from', () => {
     source.close();
   });
 
+  it('every tick about a cursor, however wide the window: neither drives the other away', async () => {
+    const fetchSamples = vi.fn(async (query: Parameters<typeof answer>[0]) => answer(query));
+    const source = new Source('1', signals, () => {}, fetchSamples);
+    source.head = 9999;
+    for (let i = 0; i < 20; i++) {
+      source.get('a', 0, 9999);
+      source.near('a', 4999, 5000);
+      await vi.advanceTimersByTimeAsync(100);
+    }
+    expect(fetchSamples.mock.calls.map(([query]) => [query.from, query.to])).toEqual([
+      [0, 9999],
+      [4992, 5056],
+    ]);
+    expect(source.get('a', 0, 9999).k.length).toBe(10_000);
+    expect(source.near('a', 4999, 5000).k.length).toBe(65);
+    source.close();
+  });
+
   it('nowhere, for a signal that there is not', () => {
     const source = new Source('1', signals, () => {}, async (query) => answer(query));
     expect(source.get('c', 0, 10).k).toHaveLength(0);

@@ -5,6 +5,12 @@ export const linkStates = [
   { value: 3, letter: 'R', token: 'replay', word: 'word_R' },
 ] as const;
 
+/** Of several ticks only the extreme is known: attacked, but not how. */
+export function linkRasterCell(value: number, several: boolean): { token: string; letter?: string } | null {
+  if (several) return value > 0 ? { token: 'attacked' } : null;
+  return linkCell(value);
+}
+
 export function linkCell(value: number): { token: string; letter: string } | null {
   return linkStates.find((state) => state.value === value) ?? null;
 }

@@ -160,14 +160,15 @@ function dot(context: CanvasRenderingContext2D, at: [number, number] | null, X: 
 }
 
 function nodes(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y: Map1): void {
-  context.font = "600 11px 'IBM Plex Mono', monospace";
+  const many = scene.nodes.length > 10;
+  context.font = `600 ${many ? 9 : 11}px 'IBM Plex Mono', monospace`;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
   for (const { id, position } of scene.nodes) {
     if (!position) continue;
     const [x, y] = [X(position[0]), Y(position[1])];
     context.beginPath();
-    context.arc(x, y, id.length > 1 ? 10.5 : 9, 0, 2 * Math.PI);
+    context.arc(x, y, many ? 7.5 : id.length > 1 ? 10.5 : 9, 0, 2 * Math.PI);
     context.fillStyle = colour('surface');
     context.fill();
     context.lineWidth = 1.4;

@@ -13,6 +13,7 @@ import type { LiveView } from './view.svelte';
 
 const refreshMs = 2000;
 const statusMs = 250;
+const awaitMs = 400;
 const maxGap = 12_000;
 const fillAgainMs = 700;
 const thinnedMs = 2000;
@@ -67,6 +68,12 @@ export class Session {
     try {
       const [run, signals] = await Promise.all([api.run(this.id), api.signals(this.id)]);
       if (this.closed) return;
+      // A run that waits for its turn or is being made ready has no signals yet.
+      if (signals.length === 0 && isLive(run.state)) {
+        this.run = run;
+        setTimeout(() => void (this.closed || this.load()), awaitMs);
+        return;
+      }
       this.source = new Source(this.id, signals, () => loop.data());
       this.model = makeModel(run, signals);
       this.take(run);
