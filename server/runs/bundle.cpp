@@ -54,7 +54,7 @@ void check_commands(const RunOrder& order) {
     if (i > 0 && command.k < order.commands[i - 1].k) throw InputError(child("/commands", i), "the commands are not in the order of their ticks", "rising k");
     try {
       scratch.prepare(command.body);
-      scratch.apply(command);
+      scratch.apply({0, command.body});  // before its first tick, so that the next one is checked with it
     } catch (const InputError& error) {
       std::vector<Problem> problems = error.problems();
       for (Problem& problem : problems) problem.pointer = child("/commands", i) + "/body" + problem.pointer;

@@ -42,7 +42,7 @@ class TrialQueue {
     while (!error_ && !stop && results_.find(merged_) == results_.end()) changed_.wait_for(lock, std::chrono::milliseconds(100));
     if (error_) std::rethrow_exception(error_);
     const auto place = results_.find(merged_);
-    if (place == results_.end()) return std::nullopt;
+    if (stop || place == results_.end()) return std::nullopt;
     TrialResult result = std::move(place->second);
     results_.erase(place);
     ++merged_;

@@ -110,7 +110,7 @@ void add_command(Run& scratch, RunOrder& order, std::int64_t k, const Json& body
   try {
     Command command = scratch.prepare(body);
     command.k = k + 1;
-    scratch.apply(command);
+    scratch.apply({0, command.body});
     order.commands.push_back(std::move(command));
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
@@ -136,11 +136,12 @@ RunOrder fork_order(const RunRow& parent, std::int64_t k, const Json& patch, std
   order.tags = parent.tags;
   std::erase(order.tags, "demo");
 
-  // A run that has had every earlier command is what the patch is checked against.
+  // A run that has had every earlier command is what the patch is checked against: all of them before its first tick, since
+  // only what they leave behind matters here.
   Run scratch = make_run(order);
   for (const Command& command : parent.commands) {
     if (command.k > k) continue;
-    scratch.apply(command);
+    scratch.apply({0, command.body});
     order.commands.push_back(command);
   }
   if (!sorter.params.empty()) add_command(scratch, order, k, Json{{"params", sorter.params}}, "/patch");

@@ -43,7 +43,7 @@ TEST(LogOfARun, FollowsTheDocumentThenThePace) {
   EXPECT_EQ(log_policy(document, Pace{20}), LogPolicy::lossless);
   RunOrder order;
   order.scenario = Scenario::preset("consensus");
-  const Run run = make_run(order);
+  const vigil::Run run = make_run(order);
   EXPECT_TRUE(log_selection(document, run.catalogue()).signals.empty());
   document["log"]["signals"] = {"truth.*"};
   document["log"]["every"] = 4;
@@ -56,7 +56,7 @@ TEST(LogOfARun, FollowsTheDocumentThenThePace) {
 TEST(Topics, OverviewLanesAndAll) {
   RunOrder order;
   order.scenario = Scenario::preset("consensus");
-  const Run run = make_run(order);
+  const vigil::Run run = make_run(order);
   const auto topics = hub_topics(run.catalogue(), order.scenario.document());
   ASSERT_EQ(topics.size(), 2 + order.scenario.document().at("lanes").size());
   EXPECT_EQ(topics.front().name, "overview");
@@ -94,9 +94,9 @@ TEST(Assignments, AreJsonOrAWord) {
 
 TEST(Assignments, ThatAreValidTogetherMayComeInAnyOrder) {
   const Scenario base = Scenario::preset("consensus");
-  const Scenario set = with_all(base, {{"adversary.links.params.pdos", 0.95}, {"adversary.links.params.pfdi", 0.01}});
-  EXPECT_EQ(set.document().at("adversary").at("links").at("params").at("pdos"), 0.95);
-  EXPECT_THROW(with_all(base, {{"adversary.links.params.pdos", 0.95}}), InputError);
+  const std::pair<std::string, Json> graph{"network.graph", "edges"}, edges{"network.edges", Json{{1, 2}, {2, 3}}};
+  EXPECT_THROW(with_all(base, {graph}), InputError);
+  EXPECT_EQ(with_all(base, {graph, edges}).document().at("network"), with_all(base, {edges, graph}).document().at("network"));
 }
 
 TEST(Fork, ChangesOfTheFutureBecomeCommands) {
