@@ -47,7 +47,7 @@ TEST(Campaign, ATrialIsTheRunOfItsSeed) {
     void frame(const Frame& /*frame*/) override {}
     void mark(const Mark& /*mark*/) override {}
   } sink;
-  Run run(scenario, {42, nullptr, {}});
+  vigil::Run run(scenario, {42, nullptr, {}});
   while (!run.done()) run.step(sink);
   const auto metrics = run.metrics();
   ASSERT_EQ(trial.metrics.size(), metrics.size());

@@ -1,5 +1,8 @@
 /// What must come out: section 12 of the specification. Every comparison allows four combined standard errors, so that reduced runs (VIGIL_FULL not set)
 /// get the wider bounds that belong to them; the specification's own errors are those of its runs, and where it prints none, those of 100 runs.
+#include <algorithm>
+#include <cmath>
+
 #include "tests/engine/campaign/section12.hpp"
 
 namespace vigil {
@@ -24,7 +27,7 @@ struct Row {
 
 // First table: 500 runs (centralized: heading rounded to two digits). Errors of last10 and heading follow the RMSE's relative error times 1.5.
 TEST(Section12, FirstTable) {
-  const int trials = runs(60, 500);
+  const int trials = runs(150, 500);
   const Results results(defaults(), trials);
   const std::vector<Row> table{{"consensus", {2.617, 0.044}, 3.33, 2.00},   {"clean", {2.403, 0.039}, 2.98, 1.83},
                                {"drop", {2.883, 0.050}, 3.77, 2.21},        {"naive_hold", {4.706, 0.063}, 6.07, 3.70},
@@ -67,7 +70,7 @@ TEST(Section12, EveryGraph) {
                                     {"knn3", {2.232, 0.056}, 2.029},     {"radius85", {2.263, 0.054}, 2.082},
                                     {"complete", {1.442, 0.018}, 1.447}, {"none", {4.342, 0.115}, 4.342}};
   const Scenario few = only(defaults(), {"consensus", "clean", "isolated"});
-  const int trials = runs(60, 500);
+  const int trials = runs(150, 500);
   for (const GraphRow& row : table) {
     const Results results(few.with("network.graph", row.graph), trials);
     expect_agrees(results.row("consensus", "rmse_position"), row.consensus, row.graph);
@@ -81,66 +84,85 @@ TEST(Section12, EveryGraph) {
   }
 }
 
-double rmse(const Json& params, int trials, const char* lane = "consensus") {
+MetricSummary rmse(const Json& params, int trials, const char* lane = "consensus") {
   const Json patch = {{"adversary", {{"links", {{"params", params}}}}}};
-  return Results(only(defaults(), {lane}).patched(patch), trials).mean(lane);
+  return Results(only(defaults(), {lane}).patched(patch), trials).row(lane, "rmse_position");
 }
 
-void expect_near(double value, double expected, int trials) {
-  // Single figures are batches of 100 to 200: 0.08 near 2.6, so 3 % of the value; ours has as much at 100 runs.
-  EXPECT_NEAR(value, expected, 4 * 0.03 * expected * std::sqrt(1 + 100.0 / trials)) << "with " << trials << " runs";
+/// Single figures of the specification are batches of 100 to 200 runs: 0.08 near 2.6, so an error of 3 % of the value.
+void expect_single(const MetricSummary& row, double expected, const std::string& what) { expect_agrees(row, {expected, 0.03 * expected}, what); }
+
+MetricSummary consensus_with(const char* param, const Json& value, int trials) {
+  const Scenario lone = only(defaults(), {"consensus"}).with(std::string("lanes.consensus.params.") + param, value);
+  return Results(lone, trials).row("consensus", "rmse_position");
 }
 
 TEST(Section12, WhatAttacksCost) {
-  const int trials = runs(60, 500);
+  const int trials = runs(150, 500);
   std::vector<double> dos;
   for (const auto& [pdos, expected] : std::vector<std::pair<double, double>>{{0, 2.43}, {0.2, 2.65}, {0.8, 3.75}, {1, 4.57}}) {
-    dos.push_back(rmse({{"pdos", pdos}, {"pfdi", 0}}, trials));
-    expect_near(dos.back(), expected, trials);
+    const MetricSummary row = rmse({{"pdos", pdos}, {"pfdi", 0}}, trials);
+    expect_single(row, expected, "pdos " + std::to_string(pdos));
+    dos.push_back(row.mean);
   }
   EXPECT_TRUE(std::is_sorted(dos.begin(), dos.end())) << "more DoS costs more";
-  const double flooded = rmse({{"pdos", 0}, {"pfdi", 0.8}}, trials);
-  EXPECT_NEAR(flooded / dos[0], 1, 0.02) << "the paper's false data are almost harmless";
-  const double ten = rmse({{"xi_scale", 10}, {"xi_const", true}}, trials), thirty = rmse({{"xi_scale", 30}, {"xi_const", true}}, trials);
-  expect_near(ten, 4.14, trials);
-  expect_near(thirty, 11.5, trials);
-  expect_near(rmse({{"xi_scale", 30}, {"xi_const", true}}, trials, "drop"), 2.91, trials);
-  EXPECT_NEAR(rmse({{"s_std", 3}}, trials) / rmse({{"s_std", 1}}, trials), 1, 0.02);
+  // On the same draws the ratio needs few runs.
+  EXPECT_NEAR(rmse({{"pdos", 0}, {"pfdi", 0.8}}, trials).mean / dos[0], 1, 0.02) << "the paper's false data are almost harmless";
+  EXPECT_NEAR(rmse({{"s_std", 3}}, trials).mean / rmse({{"s_std", 1}}, trials).mean, 1, 0.02);
+  expect_single(rmse({{"xi_scale", 10}, {"xi_const", true}}, trials), 4.14, "ten times and constant");
+  expect_single(rmse({{"xi_scale", 30}, {"xi_const", true}}, trials), 11.5, "thirty times and constant");
+  expect_single(rmse({{"xi_scale", 30}, {"xi_const", true}}, trials, "drop"), 2.91, "thirty times, discarded");
 }
 
 TEST(Section12, WhatStrengthBuys) {
-  const int trials = runs(60, 500);
-  const Scenario lone = only(defaults(), {"consensus"});
+  const int trials = runs(150, 500);
   for (const auto& [tau, expected] : std::vector<std::pair<double, double>>{{0.005, 3.24}, {0.01, 2.65}, {0.02, 2.06}}) {
-    expect_near(Results(lone.with("lanes.consensus.params.tau", tau), trials).mean("consensus"), expected, trials);
+    expect_single(consensus_with("tau", tau, trials), expected, "tau " + std::to_string(tau));
   }
   for (const auto& [rho, expected] : std::vector<std::pair<double, double>>{{0.5, 2.59}, {0.8, 2.42}, {0.95, 3.88}}) {
-    expect_near(Results(lone.with("lanes.consensus.params.rho", rho), trials).mean("consensus"), expected, trials);
+    expect_single(consensus_with("rho", rho, trials), expected, "rho " + std::to_string(rho));
   }
-  expect_near(Results(lone.with("lanes.consensus.params.bound", "corrected"), trials).mean("consensus"), 2.64, trials);
-  const double adapt = Results(lone.with("lanes.consensus.params.guard", "adapt"), trials).mean("consensus");
-  EXPECT_NEAR(adapt, 10.5, 4 * 0.8 * std::sqrt(1 + 100.0 / trials));
-  const Results printed(lone.with("lanes.consensus.params.guard", "none"), trials);  // heavy-tailed: about 18 to 34 cm
+  expect_single(consensus_with("bound", "corrected", trials), 2.64, "corrected");
+  expect_agrees(consensus_with("guard", "adapt", trials), {10.5, 0.8}, "adapt");
+  const Json moved = {{"nodes", {{"6", {{"sensor", {{"params", {{"position", {240, 60}}}}}}}}}}};
+  expect_single(Results(only(defaults(), {"consensus"}).patched(moved), trials).row("consensus", "rmse_position"), 2.41, "camera 6 moved");
+}
+
+// Unguarded the formulas give about 18 to 34 cm, heavy-tailed, and bounds that are none.
+TEST(Section12, WithoutAGuard) {
+  const Results printed(only(defaults(), {"consensus"}).with("lanes.consensus.params.guard", "none"), runs(150, 500));
   EXPECT_GT(printed.mean("consensus"), 8);
   EXPECT_TRUE(std::isinf(printed.mean("consensus", "bound_ratio_max"))) << "a mean bound that is not positive definite never passes";
-  const Json moved = {{"nodes", {{"6", {{"sensor", {{"params", {{"position", {240, 60}}}}}}}}}}};
-  expect_near(Results(lone.patched(moved), trials).mean("consensus"), 2.41, trials);
+}
+
+// The bound under `clip` is empirical: it breaks at rho 0.5, under a constant vector of 45 cm, and with no edges.
+TEST(Section12, WhereTheBoundBreaks) {
+  const int trials = runs(150, 500);
+  const Scenario lone = only(defaults(), {"consensus"});
+  const Json strong = {{"adversary", {{"links", {{"params", {{"xi_scale", 30}, {"xi_const", true}}}}}}}};
+  const std::vector<std::pair<Scenario, double>> broken{
+      {lone.with("lanes.consensus.params.rho", 0.5), 1.47}, {lone.patched(strong), 1.63}, {lone.with("network.graph", "none"), 1.7}};
+  const double inflation = std::pow(1 + std::sqrt(3.0 / trials), 2);
+  for (const auto& [scenario, ratio] : broken) {
+    const double measured = Results(scenario, trials).mean("consensus", "bound_ratio_max");
+    EXPECT_GT(measured, 1.1) << ratio;
+    EXPECT_LT(measured, 1.3 * ratio * inflation) << ratio;
+  }
 }
 
 TEST(Section12, LongRunsStayBounded) {
-  const int trials = runs(12, 100);
-  const Results results(only(defaults(), {"consensus", "isolated"}).with("time.steps", 200), trials);
-  expect_near(results.mean("consensus"), 3.43, trials);
-  expect_near(results.mean("isolated"), 10.5, trials);
+  const Results results(only(defaults(), {"consensus", "isolated"}).with("time.steps", 200), runs(30, 100));
+  expect_single(results.row("consensus", "rmse_position"), 3.43, "200 steps");
+  expect_single(results.row("isolated", "rmse_position"), 10.5, "200 steps, isolated");
   EXPECT_LT(results.mean("consensus", "rmse_position_last10"), 1.6 * results.mean("consensus")) << "flat";
   EXPECT_GT(results.mean("isolated", "rmse_position_last10"), 1.2 * results.mean("isolated")) << "growing";
 }
 
 TEST(Section12, TheLiteralReadingTracksNothing) {
-  const Results results(only(Scenario::preset("consensus-literal"), {"consensus", "isolated", "centralized"}), runs(60, 500));
-  expect_near(results.mean("consensus"), 8.4, runs(60, 500));
-  expect_near(results.mean("isolated"), 7.0, runs(60, 500));
-  expect_near(results.mean("centralized"), 4.9, runs(60, 500));
+  const Results results(only(Scenario::preset("consensus-literal"), {"consensus", "isolated", "centralized"}), runs(150, 500));
+  for (const auto& [lane, expected] : std::vector<std::pair<const char*, double>>{{"consensus", 8.4}, {"isolated", 7.0}, {"centralized", 4.9}}) {
+    expect_single(results.row(lane, "rmse_position"), expected, lane);
+  }
 }
 
 }  // namespace
