@@ -20,7 +20,8 @@ std::string escaped(std::string_view text) {
 
 void bundle(Services& services, const HttpRequest& request, HttpResponse& response) {
   const std::string frames = request.query_value("frames", "true");
-  if (frames != "true" && frames != "false") throw HttpError(400, "frames is " + in_quotes(frames) + "; expected true or false.");
+  if (frames != "true" && frames != "false")
+    throw HttpError(400, "frames is " + in_quotes(frames) + "; expected true or false.");
   // What was answered is in the file: commands are committed already, frames of a live run up to its last commit.
   services.log.flush();
   const RunRow row = run_row(request, services);
@@ -48,7 +49,8 @@ void import_bundle(Services& services, const HttpRequest& request, HttpResponse&
   Bundle bundle = read_bundle(request.json());
   RunOrder order = std::move(bundle.order);
   if (order.trace) {
-    order.trace_id = services.log.put_trace("imported with a bundle", bundle.trace_csv, order.trace->rows(), order.trace->columns());
+    order.trace_id =
+        services.log.put_trace("imported with a bundle", bundle.trace_csv, order.trace->rows(), order.trace->columns());
   }
   if (!order.last && !order.scenario.document().at("time").at("steps").is_number()) {
     throw InputError("/k", "k is missing: an endless run needs the tick it ends at", "an integer");
@@ -65,23 +67,24 @@ void import_bundle(Services& services, const HttpRequest& request, HttpResponse&
 
 void add_bundle_routes(Routes& routes, Services& services) {
   const Json any{{"type", "object"}};
-  routes.add(make_route("GET", "/api/v1/runs/{id}/bundle", [&services](const auto& q, auto& r) { bundle(services, q, r); },
-                        "A run in one file that `vigil run` accepts",
-                        doc::Operation()
-                            .parameter(doc::query("frames", {{"type", "boolean"}}, "false: without the samples"))
-                            .answer(200, "Document, seed, version, commands, trace, metrics, design, frames.", any)
-                            .problem(404, "There is no such run.")
-                            .problem(409, "Its trace was deleted.")
-                            .what()));
-  Route back = make_route("POST", "/api/v1/runs/import",
-                          [&services](const auto& q, auto& r) { import_bundle(services, q, r); },
-                          "Take a bundle back: its run is repeated, with its commands, to its last tick",
-                          doc::Operation()
-                              .parameter(doc::header("Idempotency-Key", "the same key with the same body starts no second run"))
-                              .body(any)
-                              .answer(201, "The run.", any)
-                              .problem(413, "The bundle is larger than 128 MiB; leave out its frames.")
-                              .what());
+  routes.add(make_route(
+      "GET", "/api/v1/runs/{id}/bundle", [&services](const auto& q, auto& r) { bundle(services, q, r); },
+      "A run in one file that `vigil run` accepts",
+      doc::Operation()
+          .parameter(doc::query("frames", {{"type", "boolean"}}, "false: without the samples"))
+          .answer(200, "Document, seed, version, commands, trace, metrics, design, frames.", any)
+          .problem(404, "There is no such run.")
+          .problem(409, "Its trace was deleted.")
+          .what()));
+  Route back = make_route(
+      "POST", "/api/v1/runs/import", [&services](const auto& q, auto& r) { import_bundle(services, q, r); },
+      "Take a bundle back: its run is repeated, with its commands, to its last tick",
+      doc::Operation()
+          .parameter(doc::header("Idempotency-Key", "the same key with the same body starts no second run"))
+          .body(any)
+          .answer(201, "The run.", any)
+          .problem(413, "The bundle is larger than 128 MiB; leave out its frames.")
+          .what());
   back.body_limit = kBundleLimit;
   routes.add(std::move(back));
 }

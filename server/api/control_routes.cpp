@@ -30,7 +30,8 @@ Change read_change(const Json& body) {
   if (body.contains("state")) {
     const Json& state = body.at("state");
     if (state != "running" && state != "paused" && state != "stopped") {
-      throw InputError("/state", "state is " + shown(state) + "; expected running, paused or stopped", "running, paused, stopped");
+      throw InputError("/state", "state is " + shown(state) + "; expected running, paused or stopped",
+                       "running, paused, stopped");
     }
     change.state = state.get<std::string>();
   }
@@ -51,7 +52,8 @@ Change read_change(const Json& body) {
 /// What may fail comes first, so that a refused change has changed nothing.
 void carry_out(const Change& change, LiveRun& run) {
   if (change.step && change.state && *change.state != "paused") {
-    throw InputError("/step", "a run that is stepped stays paused; leave out state or make it paused", "no state, or paused");
+    throw InputError("/step", "a run that is stepped stays paused; leave out state or make it paused",
+                     "no state, or paused");
   }
   if (change.params) run.command({{"params", *change.params}});
   if (change.pace) run.set_pace(*change.pace);
@@ -123,7 +125,8 @@ void fork(Services& services, const HttpRequest& request, HttpResponse& response
   if (last < 0) throw HttpError(409, "The run has made no tick yet: there is nothing to fork from.");
   const std::int64_t k = read_integer(body.at("k"), "k", 0, last);
   const auto trace = parent.trace ? services.runs.trace(*parent.trace) : nullptr;
-  if (parent.trace && !trace) throw HttpError(409, "The trace this run was made from was deleted: it cannot be repeated.");
+  if (parent.trace && !trace)
+    throw HttpError(409, "The trace this run was made from was deleted: it cannot be repeated.");
   RunOrder order = fork_order(parent, k, body.contains("patch") ? body.at("patch") : Json::object(), trace);
   order.pace = Pace::from_json(body.contains("pace") ? body.at("pace") : parent.pace, "/pace");
   if (body.contains("tags")) order.tags = read_tags(body.at("tags"));
@@ -138,12 +141,13 @@ void fork(Services& services, const HttpRequest& request, HttpResponse& response
 
 Json patch_doc() {
   return doc::Operation()
-      .body(doc::object_schema({{"state", {{"enum", {"running", "paused", "stopped"}}}},
-                                {"pace", {{"description", "\"max\" or ticks per second"}}},
-                                {"step", doc::integer_schema(1, 100'000)},
-                                {"params", {{"type", "object"}, {"description", "dotted path to value; those declared live"}}},
-                                {"tags", {{"type", "array"}, {"items", {{"type", "string"}}}}},
-                                {"note", {{"type", "string"}}}}))
+      .body(doc::object_schema(
+          {{"state", {{"enum", {"running", "paused", "stopped"}}}},
+           {"pace", {{"description", "\"max\" or ticks per second"}}},
+           {"step", doc::integer_schema(1, 100'000)},
+           {"params", {{"type", "object"}, {"description", "dotted path to value; those declared live"}}},
+           {"tags", {{"type", "array"}, {"items", {{"type", "string"}}}}},
+           {"note", {{"type", "string"}}}}))
       .answer(200, "The run as it is now.", kRun)
       .problem(404, "There is no such run.")
       .problem(409, "The run is over, or is not paused and cannot be stepped.")
@@ -184,19 +188,23 @@ Json fork_doc() {
 }  // namespace
 
 void add_control_routes(Routes& routes, Services& services) {
-  routes.add(make_route("PATCH", "/api/v1/runs/{id}", [&services](const auto& q, auto& r) { patch(services, q, r); },
-                   "Pause, resume, step, stop or change a run", patch_doc()));
-  routes.add(make_route("POST", "/api/v1/runs/{id}/attacks", [&services](const auto& q, auto& r) { attack(services, q, r); },
-                   "Start an attack in a live run", attack_doc()));
-  routes.add(make_route("DELETE", "/api/v1/runs/{id}/attacks/{aid}",
-                   [&services](const auto& q, auto& r) { end_attack(services, q, r); }, "End an attack of a live run",
-                   doc::Operation()
-                       .answer(200, "Its id, and the tick it ends before.", kRun)
-                       .problem(404, "There is no such attack.")
-                       .problem(409, "The run is over.")
-                       .what()));
-  routes.add(make_route("POST", "/api/v1/runs/{id}/fork", [&services](const auto& q, auto& r) { fork(services, q, r); },
-                   "A new run that shares this one's past", fork_doc()));
+  routes.add(make_route(
+      "PATCH", "/api/v1/runs/{id}", [&services](const auto& q, auto& r) { patch(services, q, r); },
+      "Pause, resume, step, stop or change a run", patch_doc()));
+  routes.add(make_route(
+      "POST", "/api/v1/runs/{id}/attacks", [&services](const auto& q, auto& r) { attack(services, q, r); },
+      "Start an attack in a live run", attack_doc()));
+  routes.add(make_route(
+      "DELETE", "/api/v1/runs/{id}/attacks/{aid}", [&services](const auto& q, auto& r) { end_attack(services, q, r); },
+      "End an attack of a live run",
+      doc::Operation()
+          .answer(200, "Its id, and the tick it ends before.", kRun)
+          .problem(404, "There is no such attack.")
+          .problem(409, "The run is over.")
+          .what()));
+  routes.add(make_route(
+      "POST", "/api/v1/runs/{id}/fork", [&services](const auto& q, auto& r) { fork(services, q, r); },
+      "A new run that shares this one's past", fork_doc()));
 }
 
 }  // namespace vigil

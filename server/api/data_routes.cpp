@@ -75,10 +75,12 @@ void samples(const Services& services, const HttpRequest& request, HttpResponse&
     return;
   }
   const std::size_t wanted = picked.size() * static_cast<std::size_t>(points) * 2;
-  const std::size_t there = picked.size() * static_cast<std::size_t>(std::max<std::int64_t>(std::min(to, row.k) - from + 1, 0));
+  const std::size_t there =
+      picked.size() * static_cast<std::size_t>(std::max<std::int64_t>(std::min(to, row.k) - from + 1, 0));
   if (std::min(wanted, there) > kMostNumbers) {
-    throw HttpError(400, "That is too much for one JSON answer: ask for fewer signals or points, a shorter range, or text/csv.",
-                    {{"/points", "signals times points is more than 2000000", "at most 2000000 in all"}});
+    throw HttpError(
+        400, "That is too much for one JSON answer: ask for fewer signals or points, a shorter range, or text/csv.",
+        {{"/points", "signals times points is more than 2000000", "at most 2000000 in all"}});
   }
   response.json(window_json(services.reader.samples(row.id, picked, from, to, points), catalogue));
 }
@@ -94,7 +96,7 @@ std::vector<std::string> parts(std::string_view text) {
 }
 
 MarkType mark_type(const std::string& name) {
-  static const std::vector<MarkType> all{MarkType::attack, MarkType::alarm,   MarkType::fault,
+  static const std::vector<MarkType> all{MarkType::attack,  MarkType::alarm, MarkType::fault,
                                          MarkType::command, MarkType::state, MarkType::note};
   for (const MarkType type : all) {
     if (to_string(type) == name) return type;
@@ -121,16 +123,27 @@ void marks(const Services& services, const HttpRequest& request, HttpResponse& r
 Json samples_doc() {
   const Json numbers{{"type", "array"}, {"items", {{"type", {"number", "null"}}}}};
   const Json series{{"type", "object"},
-                    {"properties", {{"signal", {{"type", "string"}}}, {"id", {{"type", "integer"}}}, {"v", numbers}, {"lo", numbers}, {"hi", numbers}}}};
+                    {"properties",
+                     {{"signal", {{"type", "string"}}},
+                      {"id", {{"type", "integer"}}},
+                      {"v", numbers},
+                      {"lo", numbers},
+                      {"hi", numbers}}}};
   const Json window{{"type", "object"},
                     {"required", {"k", "series"}},
-                    {"properties", {{"k", {{"type", "array"}, {"items", {{"type", "integer"}}}}}, {"t", numbers}, {"series", {{"type", "array"}, {"items", series}}}}}};
+                    {"properties",
+                     {{"k", {{"type", "array"}, {"items", {{"type", "integer"}}}}},
+                      {"t", numbers},
+                      {"series", {{"type", "array"}, {"items", series}}}}}};
   return doc::Operation()
-      .parameter(doc::query("signals", doc::text_schema(), "names, patterns (* ?) or ids, comma-separated; all without"))
+      .parameter(
+          doc::query("signals", doc::text_schema(), "names, patterns (* ?) or ids, comma-separated; all without"))
       .parameter(doc::query("from", doc::integer_schema(0, kLastTick), "first tick"))
       .parameter(doc::query("to", doc::integer_schema(0, kLastTick), "last tick, included"))
-      .parameter(doc::query("points", doc::integer_schema(2, 100'000), "buckets at most, 1000 without; CSV has every tick"))
-      .answer(200, "Values where the range has no more ticks than points, otherwise the extremes of each bucket.", window)
+      .parameter(
+          doc::query("points", doc::integer_schema(2, 100'000), "buckets at most, 1000 without; CSV has every tick"))
+      .answer(200, "Values where the range has no more ticks than points, otherwise the extremes of each bucket.",
+              window)
       .answer(200, "Values where the range has no more ticks than points, otherwise the extremes of each bucket.",
               doc::text_schema("k,t,names; 17 significant digits; empty: missing"), "text/csv")
       .problem(400, "A signal that is not there, a range or number that cannot be read, or too much for one answer.")
@@ -154,16 +167,19 @@ Json marks_doc() {
 }  // namespace
 
 void add_data_routes(Routes& routes, Services& services) {
-  routes.add(make_route("GET", "/api/v1/runs/{id}/signals", [&services](const auto& q, auto& r) { signals(services, q, r); },
-                        "The run's signal catalogue",
-                        doc::Operation()
-                            .answer(200, "Every signal, in the order of frames.", doc::page_schema({{"type", "object"}}))
-                            .problem(404, "There is no such run.")
-                            .what()));
-  routes.add(make_route("GET", "/api/v1/runs/{id}/samples", [&services](const auto& q, auto& r) { samples(services, q, r); },
-                        "Samples of a run, at any zoom", samples_doc()));
-  routes.add(make_route("GET", "/api/v1/runs/{id}/marks", [&services](const auto& q, auto& r) { marks(services, q, r); },
-                        "What happened in a run", marks_doc()));
+  routes.add(make_route(
+      "GET", "/api/v1/runs/{id}/signals", [&services](const auto& q, auto& r) { signals(services, q, r); },
+      "The run's signal catalogue",
+      doc::Operation()
+          .answer(200, "Every signal, in the order of frames.", doc::page_schema({{"type", "object"}}))
+          .problem(404, "There is no such run.")
+          .what()));
+  routes.add(make_route(
+      "GET", "/api/v1/runs/{id}/samples", [&services](const auto& q, auto& r) { samples(services, q, r); },
+      "Samples of a run, at any zoom", samples_doc()));
+  routes.add(make_route(
+      "GET", "/api/v1/runs/{id}/marks", [&services](const auto& q, auto& r) { marks(services, q, r); },
+      "What happened in a run", marks_doc()));
 }
 
 }  // namespace vigil

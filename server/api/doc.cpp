@@ -27,11 +27,19 @@ Json page_schema(Json item) {
 }
 
 Json query(const std::string& name, Json schema, const std::string& description) {
-  return {{"name", name}, {"in", "query"}, {"required", false}, {"description", description}, {"schema", std::move(schema)}};
+  return {{"name", name},
+          {"in", "query"},
+          {"required", false},
+          {"description", description},
+          {"schema", std::move(schema)}};
 }
 
 Json header(const std::string& name, const std::string& description) {
-  return {{"name", name}, {"in", "header"}, {"required", false}, {"description", description}, {"schema", {{"type", "string"}}}};
+  return {{"name", name},
+          {"in", "header"},
+          {"required", false},
+          {"description", description},
+          {"schema", {{"type", "string"}}}};
 }
 
 Operation& Operation::parameter(Json parameter) {

@@ -24,7 +24,8 @@ class Operation {
  public:
   Operation& parameter(Json parameter);
   Operation& body(Json schema, const std::string& type = "application/json");
-  Operation& answer(int code, const std::string& description, Json schema, const std::string& type = "application/json");
+  Operation& answer(int code, const std::string& description, Json schema,
+                    const std::string& type = "application/json");
   Operation& empty(int code, const std::string& description);
   /// A problem that this route in particular can answer with.
   Operation& problem(int code, const std::string& description);

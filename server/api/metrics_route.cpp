@@ -32,7 +32,9 @@ class MetricsText {
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -58,15 +60,19 @@ void runs(MetricsText& text, const Services& services) {
 
 void log(MetricsText& text, const Services& services) {
   const LogHealth health = services.log.health();
-  text.one("vigil_log_bytes", "gauge", "Size of the log's file and its write-ahead log.", static_cast<double>(health.bytes));
+  text.one("vigil_log_bytes", "gauge", "Size of the log's file and its write-ahead log.",
+           static_cast<double>(health.bytes));
   text.one("vigil_log_queue_bytes", "gauge", "Samples waiting for the disk.", static_cast<double>(health.queue_bytes));
-  text.one("vigil_log_dropped_frames_total", "counter", "Frames dropped by a full queue.", static_cast<double>(health.dropped));
-  text.one("vigil_log_healthy", "gauge", "1 while the log can be written.", health.state == LogHealth::State::ok ? 1 : 0);
+  text.one("vigil_log_dropped_frames_total", "counter", "Frames dropped by a full queue.",
+           static_cast<double>(health.dropped));
+  text.one("vigil_log_healthy", "gauge", "1 while the log can be written.",
+           health.state == LogHealth::State::ok ? 1 : 0);
 }
 
 void front(MetricsText& text, const Services& services) {
   const FrontStats stats = services.stats();
-  text.one("vigil_http_requests_total", "counter", "Requests that reached a handler.", static_cast<double>(stats.requests));
+  text.one("vigil_http_requests_total", "counter", "Requests that reached a handler.",
+           static_cast<double>(stats.requests));
   text.one("vigil_http_refused_total", "counter", "Requests refused at the door.", static_cast<double>(stats.refused));
   text.one("vigil_http_connections", "gauge", "Open connections.", static_cast<double>(stats.connections));
   text.one("vigil_http_queued", "gauge", "Requests waiting for a worker.", static_cast<double>(stats.queued));
@@ -96,7 +102,8 @@ void add_metrics_route(Routes& routes, Services& services) {
         process(text, services);
         response.text(text.take(), "text/plain; version=0.0.4; charset=utf-8");
       },
-      "Figures for Prometheus", doc::Operation().answer(200, "Prometheus text.", doc::text_schema(), "text/plain").what()));
+      "Figures for Prometheus",
+      doc::Operation().answer(200, "Prometheus text.", doc::text_schema(), "text/plain").what()));
 }
 
 }  // namespace vigil

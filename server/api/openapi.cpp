@@ -9,7 +9,8 @@ namespace vigil {
 namespace {
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -32,7 +33,9 @@ Json path_parameters(const std::string& pattern) {
   Json parameters = Json::array();
   for (std::size_t open = pattern.find('{'); open != std::string::npos; open = pattern.find('{', open + 1)) {
     const std::size_t close = pattern.find('}', open);
-    parameters.push_back({{"name", pattern.substr(open + 1, close - open - 1)}, {"in", "path"}, {"required", true},
+    parameters.push_back({{"name", pattern.substr(open + 1, close - open - 1)},
+                          {"in", "path"},
+                          {"required", true},
                           {"schema", {{"type", "string"}}}});
   }
   return parameters;
@@ -49,7 +52,10 @@ Json problem_schema() {
   return {{"type", "object"},
           {"required", {"type", "title", "status", "detail"}},
           {"properties",
-           {{"type", text}, {"title", text}, {"status", {{"type", "integer"}}}, {"detail", text},
+           {{"type", text},
+            {"title", text},
+            {"status", {{"type", "integer"}}},
+            {"detail", text},
             {"errors", {{"type", "array"}, {"items", error}}}}}};
 }
 
@@ -89,7 +95,8 @@ Json operation(const Route& route) {
 Json openapi_json(const Routes& routes) {
   Json api;
   api["openapi"] = "3.1.0";
-  api["info"] = {{"title", "Vigil"}, {"version", std::string(version())},
+  api["info"] = {{"title", "Vigil"},
+                 {"version", std::string(version())},
                  {"license", {{"name", "Apache-2.0"}, {"identifier", "Apache-2.0"}}},
                  {"description", "Secure state estimation under attack: scenarios, runs, their samples and streams."}};
   api["servers"] = Json::array({{{"url", "/"}}});

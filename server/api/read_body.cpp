@@ -20,10 +20,12 @@ void check_members(const Json& body, const std::vector<std::string>& known) {
 
 std::vector<std::string> read_tags(const Json& value) {
   const auto fits = [](const Json& tag) {
-    return tag.is_string() && !tag.get_ref<const std::string&>().empty() && tag.get_ref<const std::string&>().size() <= 64;
+    return tag.is_string() && !tag.get_ref<const std::string&>().empty() &&
+           tag.get_ref<const std::string&>().size() <= 64;
   };
   if (!value.is_array() || value.size() > 32 || !std::all_of(value.begin(), value.end(), fits)) {
-    throw InputError("/tags", "tags is " + shown(value) + "; expected up to 32 texts of 1 to 64 bytes", "array of texts");
+    throw InputError("/tags", "tags is " + shown(value) + "; expected up to 32 texts of 1 to 64 bytes",
+                     "array of texts");
   }
   auto tags = value.get<std::vector<std::string>>();
   std::vector<std::string> unique;

@@ -39,15 +39,18 @@ void read_patch(const Json& patch, RunOrder& order) {
 void read_input(const Json& input, Services& services, RunOrder& order) {
   if (input == "simulate") return;
   if (input == "ingest") {
-    throw InputError("/input", "\"ingest\" (live data of your own) is not part of this version", "\"simulate\" or {\"trace\":id}");
+    throw InputError("/input", "\"ingest\" (live data of your own) is not part of this version",
+                     "\"simulate\" or {\"trace\":id}");
   }
   if (!input.is_object() || input.size() != 1 || !input.contains("trace")) {
-    throw InputError("/input", "input is " + shown(input) + "; expected \"simulate\" or {\"trace\":id}", "\"simulate\" or {\"trace\":id}");
+    throw InputError("/input", "input is " + shown(input) + "; expected \"simulate\" or {\"trace\":id}",
+                     "\"simulate\" or {\"trace\":id}");
   }
   order.trace_id = read_id(input.at("trace"), "/input/trace");
   order.trace = services.runs.trace(*order.trace_id);
   if (!order.trace) {
-    throw InputError("/input/trace", "there is no trace " + std::to_string(*order.trace_id), "an id of GET /api/v1/traces");
+    throw InputError("/input/trace", "there is no trace " + std::to_string(*order.trace_id),
+                     "an id of GET /api/v1/traces");
   }
 }
 
@@ -63,7 +66,8 @@ RunOrder read_order(const HttpRequest& request, Services& services) {
   order.scenario = read_scenario(body.at("scenario"), services);
   if (body.contains("patch")) read_patch(body.at("patch"), order);
   if (body.contains("seed")) {
-    order.seed = static_cast<std::uint64_t>(read_integer(body.at("seed"), "seed", 0, static_cast<std::int64_t>(kLargestSeed)));
+    order.seed =
+        static_cast<std::uint64_t>(read_integer(body.at("seed"), "seed", 0, static_cast<std::int64_t>(kLargestSeed)));
   }
   if (body.contains("pace")) order.pace = Pace::from_json(body.at("pace"), "/pace");
   if (body.contains("input")) read_input(body.at("input"), services, order);

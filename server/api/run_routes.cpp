@@ -11,7 +11,8 @@ namespace vigil {
 namespace {
 
 WallTime now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 const Json kRun{{"type", "object"}};
@@ -36,11 +37,13 @@ void list(const Services& services, const HttpRequest& request, HttpResponse& re
 }
 
 Json create_doc() {
-  const Json scenario{{"oneOf", {{{"type", "string"}}, {{"type", "object"}}}}, {"description", "an id or a whole document"}};
+  const Json scenario{{"oneOf", {{{"type", "string"}}, {{"type", "object"}}}},
+                      {"description", "an id or a whole document"}};
   const Json pace{{"oneOf", {{{"const", "max"}}, {{"type", "number"}, {"minimum", 0.001}, {"maximum", 100000}}}}};
   const Json trace = doc::object_schema({{"trace", doc::text_schema("id of a trace")}}, {"trace"});
   const Json input{{"oneOf", {{{"const", "simulate"}}, trace}}};
-  const Json tags{{"type", "array"}, {"maxItems", 32}, {"items", {{"type", "string"}, {"minLength", 1}, {"maxLength", 64}}}};
+  const Json tags{
+      {"type", "array"}, {"maxItems", 32}, {"items", {{"type", "string"}, {"minLength", 1}, {"maxLength", 64}}}};
   return doc::Operation()
       .parameter(doc::header("Idempotency-Key", "the same key with the same body starts no second run"))
       .body(doc::object_schema({{"scenario", scenario},
@@ -71,10 +74,11 @@ Json list_doc() {
 }  // namespace
 
 void add_run_routes(Routes& routes, Services& services) {
-  routes.add(make_route("POST", "/api/v1/runs", [&services](const auto& q, auto& r) { create(services, q, r); }, "Start a run",
-                        create_doc()));
-  routes.add(make_route("GET", "/api/v1/runs", [&services](const auto& q, auto& r) { list(services, q, r); }, "Find runs",
-                        list_doc()));
+  routes.add(make_route(
+      "POST", "/api/v1/runs", [&services](const auto& q, auto& r) { create(services, q, r); }, "Start a run",
+      create_doc()));
+  routes.add(make_route(
+      "GET", "/api/v1/runs", [&services](const auto& q, auto& r) { list(services, q, r); }, "Find runs", list_doc()));
   routes.add(make_route(
       "GET", "/api/v1/runs/{id}",
       [&services](const auto& q, auto& r) { r.json(run_detail(run_row(q, services), services)); },

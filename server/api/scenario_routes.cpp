@@ -4,8 +4,8 @@
 #include "engine/core/describe.hpp"
 #include "server/api/doc.hpp"
 #include "server/api/guard.hpp"
-#include "server/api/services.hpp"
 #include "server/api/read_body.hpp"
+#include "server/api/services.hpp"
 
 namespace vigil {
 namespace {
@@ -20,8 +20,12 @@ bool is_preset(const std::string& id) {
 Json item_json(const Json& document, bool preset) {
   Json lanes = Json::array();
   for (const auto& [lane, body] : document.at("lanes").items()) lanes.push_back(lane);
-  return {{"id", document.at("id")},         {"title", document.at("title")}, {"family", document.at("family")},
-          {"source", document.at("source")}, {"preset", preset},              {"lanes", std::move(lanes)}};
+  return {{"id", document.at("id")},
+          {"title", document.at("title")},
+          {"family", document.at("family")},
+          {"source", document.at("source")},
+          {"preset", preset},
+          {"lanes", std::move(lanes)}};
 }
 
 void list(const Services& services, HttpResponse& response) {
@@ -45,7 +49,8 @@ bool is_scenario_id(const std::string& id) {
 
 void store(Services& services, const HttpRequest& request, HttpResponse& response) {
   const std::string id = request.params.at("id");
-  if (is_preset(id)) throw HttpError(409, in_quotes(id) + " is a preset and cannot be changed; store yours under another id.");
+  if (is_preset(id))
+    throw HttpError(409, in_quotes(id) + " is a preset and cannot be changed; store yours under another id.");
   if (!is_scenario_id(id)) {
     throw HttpError(400, "The id is " + in_quotes(id) + "; expected 1 to 64 of a-z, 0-9, - and _.");
   }
@@ -68,9 +73,10 @@ void remove(Services& services, const HttpRequest& request, HttpResponse& respon
 }  // namespace
 
 void add_scenario_routes(Routes& routes, Services& services) {
-  routes.add(make_route("GET", "/api/v1/scenarios", [&services](const auto&, auto& r) { list(services, r); },
-                        "Presets and the user's own scenarios",
-                        doc::Operation().answer(200, "Every scenario.", doc::page_schema(kDocument)).what()));
+  routes.add(make_route(
+      "GET", "/api/v1/scenarios", [&services](const auto&, auto& r) { list(services, r); },
+      "Presets and the user's own scenarios",
+      doc::Operation().answer(200, "Every scenario.", doc::page_schema(kDocument)).what()));
   routes.add(make_route(
       "GET", "/api/v1/scenarios/{id}",
       [&services](const auto& q, auto& r) { r.json(named_scenario(services, q.params.at("id")).document()); },
@@ -81,25 +87,28 @@ void add_scenario_routes(Routes& routes, Services& services) {
       [&services](const auto& q, auto& r) { r.json(named_scenario(services, q.params.at("id")).schema()); },
       "JSON Schema of documents like this one",
       doc::Operation().answer(200, "The schema.", kDocument).problem(404, "There is no such scenario.").what()));
-  routes.add(make_route("PUT", "/api/v1/scenarios/{id}", [&services](const auto& q, auto& r) { store(services, q, r); },
-                        "Store a scenario of the user's own",
-                        doc::Operation()
-                            .body(kDocument)
-                            .answer(200, "It was replaced; the document with its defaults.", kDocument)
-                            .answer(201, "It is new; the document with its defaults.", kDocument)
-                            .problem(409, "The id is a preset's.")
-                            .problem(422, "The document is not valid.")
-                            .what()));
-  routes.add(make_route("DELETE", "/api/v1/scenarios/{id}", [&services](const auto& q, auto& r) { remove(services, q, r); },
-                        "Delete a scenario of the user's own",
-                        doc::Operation()
-                            .empty(204, "It is gone.")
-                            .problem(404, "There is no such scenario.")
-                            .problem(409, "It is a preset.")
-                            .what()));
-  routes.add(make_route("GET", "/api/v1/methods", [](const auto&, auto& r) { r.json(registry_json()); },
-                        "Every method, attack, plant, sensor and law with its declared parameters",
-                        doc::Operation().answer(200, "The registry.", kDocument).what()));
+  routes.add(make_route(
+      "PUT", "/api/v1/scenarios/{id}", [&services](const auto& q, auto& r) { store(services, q, r); },
+      "Store a scenario of the user's own",
+      doc::Operation()
+          .body(kDocument)
+          .answer(200, "It was replaced; the document with its defaults.", kDocument)
+          .answer(201, "It is new; the document with its defaults.", kDocument)
+          .problem(409, "The id is a preset's.")
+          .problem(422, "The document is not valid.")
+          .what()));
+  routes.add(make_route(
+      "DELETE", "/api/v1/scenarios/{id}", [&services](const auto& q, auto& r) { remove(services, q, r); },
+      "Delete a scenario of the user's own",
+      doc::Operation()
+          .empty(204, "It is gone.")
+          .problem(404, "There is no such scenario.")
+          .problem(409, "It is a preset.")
+          .what()));
+  routes.add(make_route(
+      "GET", "/api/v1/methods", [](const auto&, auto& r) { r.json(registry_json()); },
+      "Every method, attack, plant, sensor and law with its declared parameters",
+      doc::Operation().answer(200, "The registry.", kDocument).what()));
 }
 
 }  // namespace vigil

@@ -1,9 +1,9 @@
 #include "server/api/server.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <atomic>
 #include <utility>
-
-#include <spdlog/spdlog.h>
 
 #include "server/api/services.hpp"
 #include "server/runs/demo.hpp"
@@ -35,9 +35,18 @@ Route no_page_route() {
 
 struct Server::State {
   explicit State(ServerOptions given)
-      : options(std::move(given)), files(options.web ? StaticFiles(*options.web) : StaticFiles()), log(options.db, options.log),
-        reader(options.db), hub(options.hub), runs(log, reader, hub, options.runs),
-        services{log, reader, hub, runs, [this] { return front->stats(); }, [this]() -> const Routes& { return front->routes(); },
+      : options(std::move(given)),
+        files(options.web ? StaticFiles(*options.web) : StaticFiles()),
+        log(options.db, options.log),
+        reader(options.db),
+        hub(options.hub),
+        runs(log, reader, hub, options.runs),
+        services{log,
+                 reader,
+                 hub,
+                 runs,
+                 [this] { return front->stats(); },
+                 [this]() -> const Routes& { return front->routes(); },
                  [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
                  options.front.tokens.required()} {
     Routes routes = make_routes(services);

@@ -32,7 +32,8 @@ class Server {
   /// Listens, then starts the demo. Throws std::runtime_error if the port cannot be had.
   void start();
   int port() const;
-  /// Runs that have begun become "stopped" with their metrics, those that wait "interrupted"; the log is closed cleanly.
+  /// Runs that have begun become "stopped" with their metrics, those that wait "interrupted"; the log is closed
+  /// cleanly.
   void stop();
 
  private:

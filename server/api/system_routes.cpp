@@ -2,8 +2,8 @@
 #include "engine/scenario/scenario.hpp"
 #include "server/api/doc.hpp"
 #include "server/api/guard.hpp"
-#include "server/api/services.hpp"
 #include "server/api/openapi.hpp"
+#include "server/api/services.hpp"
 
 namespace vigil {
 namespace {
@@ -17,7 +17,9 @@ Json server_json(const Services& services) {
   info["uptime"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - services.started).count();
   info["runs"] = {{"running", counts.running}, {"queued", counts.queued}, {"max", counts.max}};
   info["viewers"] = services.hub.viewers();
-  info["log"] = {{"bytes", health.bytes}, {"queue", health.queue_bytes}, {"state", to_string(health.state)},
+  info["log"] = {{"bytes", health.bytes},
+                 {"queue", health.queue_bytes},
+                 {"state", to_string(health.state)},
                  {"dropped", health.dropped}};
   info["demo"] = demo ? Json(std::to_string(*demo)) : Json();
   info["auth"] = services.auth;
@@ -40,16 +42,18 @@ Route open_route(const char* pattern, Handler handler, const char* summary, Json
 
 void add_system_routes(Routes& routes, Services& services) {
   const Json any{{"type", "object"}};
-  routes.add(make_route("GET", "/api/v1/server", [&services](const auto&, auto& r) { r.json(server_json(services)); },
-                        "Version, uptime, runs, viewers, the log's state", doc::Operation().answer(200, "The server.", any).what()));
-  routes.add(make_route("GET", "/api/v1/openapi.json",
-                        [&services](const auto&, auto& r) { r.json(openapi_json(services.routes())); }, "This description",
-                        doc::Operation().answer(200, "OpenAPI 3.1.", any).what()));
+  routes.add(make_route(
+      "GET", "/api/v1/server", [&services](const auto&, auto& r) { r.json(server_json(services)); },
+      "Version, uptime, runs, viewers, the log's state", doc::Operation().answer(200, "The server.", any).what()));
+  routes.add(make_route(
+      "GET", "/api/v1/openapi.json", [&services](const auto&, auto& r) { r.json(openapi_json(services.routes())); },
+      "This description", doc::Operation().answer(200, "OpenAPI 3.1.", any).what()));
   const auto health = doc::Operation().answer(200, "It is.", doc::text_schema(), "text/plain");
-  routes.add(open_route("/healthz", [](const auto&, auto& r) { r.text("ok\n"); }, "Whether the server is alive", health.what()));
-  routes.add(open_route("/readyz", [&services](const auto&, auto& r) { ready(services, r); },
-                        "Whether the server can do its work",
-                        doc::Operation(health).problem(503, "The log cannot be written at the moment.").what()));
+  routes.add(open_route(
+      "/healthz", [](const auto&, auto& r) { r.text("ok\n"); }, "Whether the server is alive", health.what()));
+  routes.add(open_route(
+      "/readyz", [&services](const auto&, auto& r) { ready(services, r); }, "Whether the server can do its work",
+      doc::Operation(health).problem(503, "The log cannot be written at the moment.").what()));
 }
 
 Routes make_routes(Services& services) {

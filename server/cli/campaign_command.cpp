@@ -29,7 +29,8 @@ struct CampaignCommand {
 
 CampaignPlan make_plan(const CampaignCommand& command) {
   const RunOrder order = command.scenario.order();
-  if (!order.commands.empty()) throw UserError("a bundle with live commands cannot be a campaign; its document alone can");
+  if (!order.commands.empty())
+    throw UserError("a bundle with live commands cannot be a campaign; its document alone can");
   require_end(order);
   std::vector<std::pair<std::string, std::vector<Json>>> sweeps;
   std::size_t points = 1;
@@ -52,7 +53,8 @@ CampaignPlan make_plan(const CampaignCommand& command) {
 class Logged {
  public:
   Logged(const std::string& file, const CampaignPlan& plan) : log_(file) {
-    Json request{{"scenario", plan.points.front().scenario.document()}, {"runs", plan.runs}, {"first_seed", plan.first_seed}};
+    Json request{
+        {"scenario", plan.points.front().scenario.document()}, {"runs", plan.runs}, {"first_seed", plan.first_seed}};
     for (const CampaignPoint& point : plan.points) request["points"].push_back(point.sweep);
     id_ = log_.create_campaign(request, plan.trials());
   }
@@ -132,11 +134,16 @@ void add_campaign(CLI::App& app, Action& action) {
   auto command = std::make_shared<CampaignCommand>();
   CLI::App* sub = app.add_subcommand("campaign", "many runs: trial i has seed first + i");
   command->scenario.add_to(*sub);
-  sub->add_option("--runs", command->runs, "runs of each point")->required()->check(CLI::Range(std::int64_t{1}, std::int64_t{10'000'000}));
+  sub->add_option("--runs", command->runs, "runs of each point")
+      ->required()
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{10'000'000}));
   sub->add_option("--first-seed", command->first_seed, "1 without")
       ->check(CLI::Range(std::int64_t{0}, static_cast<std::int64_t>(kLargestSeed) - 10'000'000));
-  sub->add_option("--threads", command->threads, "all cores without; the results do not depend on it")->check(CLI::Range(1, 1024));
-  sub->add_option("--sweep", command->sweeps, "PATH=V1,V2,…: a grid over every --sweep")->take_all()->allow_extra_args(false);
+  sub->add_option("--threads", command->threads, "all cores without; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  sub->add_option("--sweep", command->sweeps, "PATH=V1,V2,…: a grid over every --sweep")
+      ->take_all()
+      ->allow_extra_args(false);
   sub->add_option("--db", command->db, "write the campaign into this log, too");
   sub->add_option("--json", command->json, "write the results as JSON to a file, or to standard output (-)");
   sub->callback([command, &action] { action = [command] { return carry_out(*command); }; });

@@ -40,7 +40,8 @@ int carry_out(const Action& action) {
   } catch (const InputError& error) {
     const std::string pointer = error.problems().empty() ? "" : error.problems().front().pointer;
     const std::string what = error.what();
-    return complain(pointer.empty() || what.find(pointer) != std::string::npos ? what : pointer + ": " + what, kBadInput);
+    return complain(pointer.empty() || what.find(pointer) != std::string::npos ? what : pointer + ": " + what,
+                    kBadInput);
   } catch (const LogError& error) {
     return complain(error.what(), error.kind() == LogError::Kind::disk ? kInternalError : kBadInput);
   } catch (const std::exception& error) {
@@ -61,7 +62,8 @@ int run_command_line(int argc, char** argv) {
   add_lists(app, action);
   add_trace(app, action);
   add_db(app, action);
-  if (const std::string sentence = unknown_command(app, argc, argv); !sentence.empty()) return complain(sentence, kBadInput);
+  if (const std::string sentence = unknown_command(app, argc, argv); !sentence.empty())
+    return complain(sentence, kBadInput);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

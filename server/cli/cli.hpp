@@ -3,8 +3,8 @@
 
 namespace vigil {
 
-/// Exit code: 0 done, 1 internal error, 2 bad input (one sentence on standard error), 3 a lane was stopped by a numerical
-/// fault.
+/// Exit code: 0 done, 1 internal error, 2 bad input (one sentence on standard error), 3 a lane was stopped by a
+/// numerical fault.
 int run_command_line(int argc, char** argv);
 
 }  // namespace vigil

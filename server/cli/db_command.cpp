@@ -34,7 +34,8 @@ void add_db(CLI::App& app, Action& action) {
   };
   db->add_option("--db", command->db, "the log's file, vigil.db without");
   add("check", "whether the file is whole", [command] { return report(check_log(command->db)); });
-  add("backup", "copy the log, even while it is in use", [command] { return report(backup_log(command->db, command->target)); })
+  add("backup", "copy the log, even while it is in use",
+      [command] { return report(backup_log(command->db, command->target)); })
       ->add_option("FILE", command->target, "the copy; must not exist")
       ->required();
   add("prune", "remove finished runs that are not tagged keep",

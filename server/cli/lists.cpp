@@ -24,11 +24,12 @@ int scenarios(const std::string& id, bool json) {
   std::string text;
   for (const std::string& preset : Scenario::preset_ids()) {
     const Json document = Scenario::preset(preset).document();
-    text += preset + "  (" + document.at("family").get<std::string>() + ")\n  " + document.at("title").value("en", "") + "\n  lanes: " +
-            join(document.at("lanes")) + "\n";
+    text += preset + "  (" + document.at("family").get<std::string>() + ")\n  " + document.at("title").value("en", "") +
+            "\n  lanes: " + join(document.at("lanes")) + "\n";
     Json lanes = Json::array();
     for (const auto& [lane, body] : document.at("lanes").items()) lanes.push_back(lane);
-    list.push_back({{"id", preset}, {"family", document.at("family")}, {"title", document.at("title")}, {"lanes", lanes}});
+    list.push_back(
+        {{"id", preset}, {"family", document.at("family")}, {"title", document.at("title")}, {"lanes", lanes}});
   }
   std::cout << (json ? list.dump(2) + "\n" : text);
   return kDone;
@@ -40,7 +41,9 @@ std::string range(const Json& param) {
     for (const Json& choice : param.at("choices")) text += (text.empty() ? "" : "|") + choice.get<std::string>();
     return text;
   }
-  const auto bound = [&param](const char* key) { return param.contains(key) && param.at(key).is_number() ? param.at(key).dump() : ""; };
+  const auto bound = [&param](const char* key) {
+    return param.contains(key) && param.at(key).is_number() ? param.at(key).dump() : "";
+  };
   const std::string low = bound("minimum"), high = bound("maximum");
   return low.empty() && high.empty() ? "" : low + ".." + high;
 }
@@ -53,11 +56,13 @@ int methods(bool json) {
   }
   for (const auto& [kind, entries] : registry.items()) {
     for (const Json& entry : entries) {
-      std::cout << kind << "  " << entry.value("id", "") << "  " << entry.value("title", Json::object()).value("en", "") << "\n";
+      std::cout << kind << "  " << entry.value("id", "") << "  " << entry.value("title", Json::object()).value("en", "")
+                << "\n";
       std::vector<std::vector<std::string>> rows;
       for (const Json& param : entry.value("parameters", Json::array())) {
-        rows.push_back({"    " + param.value("name", ""), param.value("type", ""), param.contains("default") ? param.at("default").dump() : "",
-                        range(param), param.value("unit", ""), param.value("live", false) ? "live" : ""});
+        rows.push_back({"    " + param.value("name", ""), param.value("type", ""),
+                        param.contains("default") ? param.at("default").dump() : "", range(param),
+                        param.value("unit", ""), param.value("live", false) ? "live" : ""});
       }
       std::cout << aligned(rows);
     }
@@ -77,7 +82,8 @@ void add_lists(CLI::App& app, Action& action) {
   list->add_option("ID", options->id, "a preset's id");
   list->add_flag("--json", options->json, "as JSON");
   list->callback([options, &action] { action = [options] { return scenarios(options->id, options->json); }; });
-  CLI::App* registry = app.add_subcommand("methods", "every method, attack, plant and law with its declared parameters");
+  CLI::App* registry =
+      app.add_subcommand("methods", "every method, attack, plant and law with its declared parameters");
   registry->add_flag("--json", options->json, "as JSON");
   registry->callback([options, &action] { action = [options] { return methods(options->json); }; });
 }

@@ -121,8 +121,9 @@ std::string fault_lines(const std::vector<FaultCount>& faults) {
   }
   std::vector<std::vector<std::string>> rows{{"fault", "code", "count", "nodes", "first", "last", ""}};
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    rows.push_back({order[i].first, order[i].second, std::to_string(sums[i].count), std::to_string(sums[i].nodes.size()),
-                    std::to_string(sums[i].first), std::to_string(sums[i].last), sums[i].stopped ? "stopped the lane" : ""});
+    rows.push_back({order[i].first, order[i].second, std::to_string(sums[i].count),
+                    std::to_string(sums[i].nodes.size()), std::to_string(sums[i].first), std::to_string(sums[i].last),
+                    sums[i].stopped ? "stopped the lane" : ""});
   }
   return sums.empty() ? std::string() : aligned(rows);
 }

@@ -24,7 +24,8 @@ struct RunCommand {
 /// The frame file, written as the run goes.
 class FrameFile {
  public:
-  FrameFile(const std::string& file, const Catalogue& catalogue) : file_(file), stream_(file, std::ios::binary | std::ios::trunc) {
+  FrameFile(const std::string& file, const Catalogue& catalogue)
+      : file_(file), stream_(file, std::ios::binary | std::ios::trunc) {
     if (!stream_) throw UserError(file_ + " cannot be written");
     text_ = csv_header(catalogue);
   }
@@ -60,7 +61,8 @@ class Logged {
     record.state = "running";
     id_ = log_.create_run(record).id;
     for (const Command& command : order.commands) log_.command(id_, command);
-    log_.set_signals(id_, run.catalogue(), log_selection(record.document, run.catalogue()), LogPolicy::lossless, run.dt());
+    log_.set_signals(id_, run.catalogue(), log_selection(record.document, run.catalogue()), LogPolicy::lossless,
+                     run.dt());
     RunUpdate update;
     update.started = now();
     log_.post(id_, update);
@@ -81,7 +83,8 @@ class Logged {
 
  private:
   static WallTime now() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
   }
   LogWriter log_;
   RunId id_ = 0;
@@ -150,7 +153,8 @@ int carry_out(const RunCommand& command) {
   if (!command.frames.empty()) outputs.file = std::make_unique<FrameFile>(command.frames, run.catalogue());
   if (!command.db.empty()) outputs.log = std::make_unique<Logged>(command.db, order, run, command.scenario.trace);
   const double seconds = step_through(run, outputs, order.last);
-  const bool whole = !run.done() || order.end_state == "stopped" || !run.steps() || run.tick() >= *run.steps() || order.trace;
+  const bool whole =
+      !run.done() || order.end_state == "stopped" || !run.steps() || run.tick() >= *run.steps() || order.trace;
   const std::string state = whole ? "finished" : "failed";
   if (outputs.file) outputs.file->close();
   if (outputs.log) outputs.log->finish(run, state);

@@ -13,8 +13,11 @@ namespace vigil {
 namespace {
 
 bool is_word(const std::string& text) {
-  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == ':' || c == '*'; };
-  return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 && std::all_of(text.begin(), text.end(), fits);
+  const auto fits = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == ':' || c == '*';
+  };
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 &&
+         std::all_of(text.begin(), text.end(), fits);
 }
 
 Json parse_value(const std::string& text, const std::string& whole) {
@@ -28,7 +31,8 @@ Json parse_value(const std::string& text, const std::string& whole) {
 
 std::pair<std::string, std::string> split(const std::string& text, const char* expected) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw UserError(in_quotes(text) + " is no assignment; expected " + expected);
+  if (equals == std::string::npos || equals == 0)
+    throw UserError(in_quotes(text) + " is no assignment; expected " + expected);
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -41,7 +45,8 @@ RunOrder load(const std::string& name) {
   }
   std::error_code error;
   if (!std::filesystem::exists(name, error)) {
-    throw UserError("SCENARIO is " + in_quotes(name) + "; expected a preset (" + listed(presets) + "), a JSON file or a bundle");
+    throw UserError("SCENARIO is " + in_quotes(name) + "; expected a preset (" + listed(presets) +
+                    "), a JSON file or a bundle");
   }
   const Json json = read_json(name);
   if (is_bundle(json)) return read_bundle(json).order;
@@ -98,7 +103,9 @@ Scenario with_all(Scenario scenario, std::vector<std::pair<std::string, Json>> s
 
 void ScenarioOptions::add_to(CLI::App& command) {
   command.add_option("SCENARIO", scenario, "a preset's id, a JSON file or a bundle")->required();
-  command.add_option("--set", sets, "PATH=JSON, e.g. lanes.consensus.params.tau=0.02")->take_all()->allow_extra_args(false);
+  command.add_option("--set", sets, "PATH=JSON, e.g. lanes.consensus.params.tau=0.02")
+      ->take_all()
+      ->allow_extra_args(false);
   command.add_option("--patch", patch, "a JSON Merge Patch of the document");
   command.add_option("--trace", trace, "a frame file that takes the place of the world");
   command.add_option("--steps", steps, "last tick")->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));

@@ -1,12 +1,12 @@
 // `vigil serve`: the server in the foreground, until it is told to end.
-#include <csignal>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include "engine/scenario/scenario.hpp"
 #include "server/api/server.hpp"
@@ -57,7 +57,9 @@ ServerOptions settle(const ServeCommand& command) {
     }
   }
   if (!is_loopback(options.front.host) && !options.front.tokens.required()) {
-    throw UserError("--host " + options.front.host + " is open to other machines and needs --token-file FILE; without a token only 127.0.0.1, ::1 and localhost are served");
+    throw UserError("--host " + options.front.host +
+                    " is open to other machines and needs --token-file FILE; without a token only 127.0.0.1, ::1 and "
+                    "localhost are served");
   }
   options.web = find_page(command.web);
   options.demo = !command.no_demo;
@@ -107,11 +109,14 @@ void add_serve(CLI::App& app, Action& action) {
   sub->add_option("--db", command->server.db, "the log's file, vigil.db without");
   sub->add_option("--web", command->web, "folder of the built page");
   sub->add_option("--token-file", command->token_file, "first line: the token; second: a read-only one");
-  sub->add_option("--allow-host", front.allow_hosts, "a further name this server is called by")->take_all()->allow_extra_args(false);
+  sub->add_option("--allow-host", front.allow_hosts, "a further name this server is called by")
+      ->take_all()
+      ->allow_extra_args(false);
   sub->add_flag("--no-demo", command->no_demo, "start no demo run");
   sub->add_option("--keep-days", command->keep_days, "remove finished runs older than this");
   sub->add_option("--keep-gib", command->keep_gib, "remove the oldest finished runs above this size");
-  sub->add_option("--max-runs", command->server.runs.max_runs, "runs at once, 4 without; more wait")->check(CLI::Range(1, 256));
+  sub->add_option("--max-runs", command->server.runs.max_runs, "runs at once, 4 without; more wait")
+      ->check(CLI::Range(1, 256));
   sub->callback([command, &action] { action = [command] { return serve(*command); }; });
 }
 

@@ -18,7 +18,8 @@ struct MrclamCommand {
 
 int mrclam(const MrclamCommand& command) {
   const std::filesystem::path folder(command.folder);
-  if (!std::filesystem::is_directory(folder)) throw UserError("DIR is " + command.folder + "; expected a folder of MRCLAM recordings");
+  if (!std::filesystem::is_directory(folder))
+    throw UserError("DIR is " + command.folder + "; expected a folder of MRCLAM recordings");
   const std::string robot = "Robot" + std::to_string(command.robot) + "_";
   MrclamFiles files;
   files.barcodes = read_text(folder / "Barcodes.dat");

@@ -12,7 +12,8 @@ const Json& required(const Json& json, const char* key, bool fits, const char* e
   const auto place = json.find(key);
   static const Json null;
   if (fits) return *place;
-  throw InputError(child("", key), std::string(key) + " is " + shown(place == json.end() ? null : *place) + "; expected " + expected,
+  throw InputError(child("", key),
+                   std::string(key) + " is " + shown(place == json.end() ? null : *place) + "; expected " + expected,
                    expected);
 }
 
@@ -37,7 +38,8 @@ std::vector<Command> read_commands(const Json& list) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& item = list[i];
     if (!item.is_object() || !holds(item, "k", &Json::is_number_unsigned) || !holds(item, "body", &Json::is_object)) {
-      throw InputError(child("/commands", i), "the command is " + shown(item) + "; expected {\"k\":tick,\"body\":{…}}", "k and body");
+      throw InputError(child("/commands", i), "the command is " + shown(item) + "; expected {\"k\":tick,\"body\":{…}}",
+                       "k and body");
     }
     commands.push_back({item.at("k").get<std::int64_t>(), item.at("body")});
   }
@@ -51,7 +53,8 @@ void check_commands(const RunOrder& order) {
   Run scratch = make_run(bare);
   for (std::size_t i = 0; i < order.commands.size(); ++i) {
     const Command& command = order.commands[i];
-    if (i > 0 && command.k < order.commands[i - 1].k) throw InputError(child("/commands", i), "the commands are not in the order of their ticks", "rising k");
+    if (i > 0 && command.k < order.commands[i - 1].k)
+      throw InputError(child("/commands", i), "the commands are not in the order of their ticks", "rising k");
     try {
       scratch.prepare(command.body);
       scratch.apply({0, command.body});  // before its first tick, so that the next one is checked with it
@@ -113,7 +116,8 @@ Bundle read_bundle(const Json& json) {
   Bundle bundle;
   RunOrder& order = bundle.order;
   order.scenario = read_document(required(json, "document", holds(json, "document", &Json::is_object), "an object"));
-  const bool seed = holds(json, "seed", &Json::is_number_unsigned) && json.at("seed").get<std::uint64_t>() <= kLargestSeed;
+  const bool seed =
+      holds(json, "seed", &Json::is_number_unsigned) && json.at("seed").get<std::uint64_t>() <= kLargestSeed;
   order.seed = required(json, "seed", seed, "an integer from 0 to 9007199254740991").get<std::uint64_t>();
   if (json.contains("commands")) {
     order.commands = read_commands(required(json, "commands", holds(json, "commands", &Json::is_array), "an array"));

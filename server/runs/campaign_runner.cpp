@@ -39,7 +39,8 @@ class TrialQueue {
   /// The next result in order; rethrows a worker's error. Nothing when asked to stop.
   std::optional<TrialResult> take(const std::atomic<bool>& stop) {
     std::unique_lock lock(mutex_);
-    while (!error_ && !stop && results_.find(merged_) == results_.end()) changed_.wait_for(lock, std::chrono::milliseconds(100));
+    while (!error_ && !stop && results_.find(merged_) == results_.end())
+      changed_.wait_for(lock, std::chrono::milliseconds(100));
     if (error_) std::rethrow_exception(error_);
     const auto place = results_.find(merged_);
     if (stop || place == results_.end()) return std::nullopt;
@@ -83,7 +84,8 @@ class Workers {
     try {
       while (const auto index = queue.next()) {
         const CampaignPoint& point = plan.points[static_cast<std::size_t>(*index / plan.runs)];
-        queue.put(*index, run_trial(point.scenario, plan.first_seed + static_cast<std::uint64_t>(*index % plan.runs), plan.trace));
+        queue.put(*index, run_trial(point.scenario, plan.first_seed + static_cast<std::uint64_t>(*index % plan.runs),
+                                    plan.trace));
       }
     } catch (...) {
       queue.fail(std::current_exception());
@@ -118,7 +120,8 @@ void merge(CampaignOutcome& outcome, const TrialResult& trial) {
 
 }  // namespace
 
-std::vector<CampaignPoint> make_grid(const Scenario& base, const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps) {
+std::vector<CampaignPoint> make_grid(const Scenario& base,
+                                     const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps) {
   std::vector<CampaignPoint> points{{Json::object(), base}};
   for (const auto& [path, values] : sweeps) {
     std::vector<CampaignPoint> wider;
@@ -182,7 +185,8 @@ Json campaign_faults_json(const std::vector<CampaignOutcome>& outcomes) {
 Json campaign_design_json(const std::vector<CampaignOutcome>& outcomes) {
   if (outcomes.size() == 1) return outcomes.front().design;
   Json list = Json::array();
-  for (const CampaignOutcome& outcome : outcomes) list.push_back({{"sweep", outcome.sweep}, {"design", outcome.design}});
+  for (const CampaignOutcome& outcome : outcomes)
+    list.push_back({{"sweep", outcome.sweep}, {"design", outcome.design}});
   return list;
 }
 

@@ -47,7 +47,8 @@ struct CampaignOutcome {
 };
 
 /// All points of a grid: the product of the values. Throws InputError where one of them is not valid.
-std::vector<CampaignPoint> make_grid(const Scenario& base, const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps);
+std::vector<CampaignPoint> make_grid(const Scenario& base,
+                                     const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps);
 
 /// `each` is called in trial order, on the calling thread. Ends early (with what is merged) when `stop` becomes true.
 /// Throws what a trial threw: InputError.

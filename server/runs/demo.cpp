@@ -1,8 +1,8 @@
 #include "server/runs/demo.hpp"
 
-#include <algorithm>
-
 #include <spdlog/spdlog.h>
+
+#include <algorithm>
 
 namespace vigil {
 namespace {
@@ -37,8 +37,9 @@ RunId start_demo(RunManager& runs, LogWriter& log, const LogReader& reader) {
   }
   RunOrder order;
   // A merge patch deletes what is null; the endless run needs the null itself.
-  order.scenario = Scenario::preset("consensus").with("time.steps", nullptr).patched(
-      Json{{"log", {{"keep", 600}, {"policy", "live"}}}});
+  order.scenario = Scenario::preset("consensus")
+                       .with("time.steps", nullptr)
+                       .patched(Json{{"log", {{"keep", 600}, {"policy", "live"}}}});
   order.pace = Pace{20.0};
   order.tags = {"demo"};
   order.sleeps_unwatched = true;

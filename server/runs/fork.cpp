@@ -39,8 +39,8 @@ class PatchSorter {
 
  private:
   void refuse(const std::string& pointer, const std::string& why) {
-    problems.push_back({pointer, "This would alter the run's past: " + why, "what may change live, or acts after tick " +
-                                                                               std::to_string(k_)});
+    problems.push_back({pointer, "This would alter the run's past: " + why,
+                        "what may change live, or acts after tick " + std::to_string(k_)});
   }
 
   bool live(const std::string& path) const { return std::find(live_.begin(), live_.end(), path) != live_.end(); }
@@ -83,8 +83,10 @@ class PatchSorter {
   void new_attack(const std::string& id, const Json& member, const std::string& pointer) {
     if (!member.is_object()) return refuse(pointer, "a new attack is an object with type, on and params.");
     const auto from = member.find("from");
-    const bool after = from == member.end() || from->is_null() || (from->is_number() && from->get<double>() > static_cast<double>(k_));
-    if (!after) return refuse(child(pointer, "from"), "the attack would begin at or before tick " + std::to_string(k_) + ".");
+    const bool after =
+        from == member.end() || from->is_null() || (from->is_number() && from->get<double>() > static_cast<double>(k_));
+    if (!after)
+      return refuse(child(pointer, "from"), "the attack would begin at or before tick " + std::to_string(k_) + ".");
     Json attack = member;
     attack["id"] = id;
     attacks.emplace_back(pointer, Json{{"attack", attack}});
@@ -136,8 +138,8 @@ RunOrder fork_order(const RunRow& parent, std::int64_t k, const Json& patch, std
   order.tags = parent.tags;
   std::erase(order.tags, "demo");
 
-  // A run that has had every earlier command is what the patch is checked against: all of them before its first tick, since
-  // only what they leave behind matters here.
+  // A run that has had every earlier command is what the patch is checked against: all of them before its first tick,
+  // since only what they leave behind matters here.
   Run scratch = make_run(order);
   for (const Command& command : parent.commands) {
     if (command.k > k) continue;

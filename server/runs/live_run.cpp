@@ -6,19 +6,28 @@
 namespace vigil {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(10);  // more than the log's own, so that its reason is the one that is told
+constexpr auto kPatience =
+    std::chrono::seconds(10);  // more than the log's own, so that its reason is the one that is told
 
 RunRefusal is_over() { return {RunRefusal::Kind::state, "The run is over: it can no longer be changed."}; }
 
 }  // namespace
 
 LiveRun::LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, std::function<void(RunId)> ended)
-    : id_(id), order_(std::move(order)), log_(log), hub_(hub), ended_call_(std::move(ended)), run_(std::move(run)),
-      sink_(id, log, hub), pace_(order_.pace), over_(ended_.get_future().share()) {
+    : id_(id),
+      order_(std::move(order)),
+      log_(log),
+      hub_(hub),
+      ended_call_(std::move(ended)),
+      run_(std::move(run)),
+      sink_(id, log, hub),
+      pace_(order_.pace),
+      over_(ended_.get_future().share()) {
   const Json& document = order_.scenario.document();
   design_ = run_.design();
   world_ = run_.world();
-  log_.set_signals(id_, run_.catalogue(), log_selection(document, run_.catalogue()), log_policy(document, pace_), run_.dt());
+  log_.set_signals(id_, run_.catalogue(), log_selection(document, run_.catalogue()), log_policy(document, pace_),
+                   run_.dt());
   hub_.open(id_, run_.catalogue(), hub_topics(run_.catalogue(), document), run_.dt());
   status_ = snapshot(true);
 }
@@ -110,7 +119,8 @@ void LiveRun::resume() {
 void LiveRun::step(std::int64_t ticks) {
   std::shared_future<void> made;
   inside([this, ticks, &made] {
-    if (!paused_ || !started_) throw RunRefusal(RunRefusal::Kind::state, "Only a paused run can be stepped; pause it first.");
+    if (!paused_ || !started_)
+      throw RunRefusal(RunRefusal::Kind::state, "Only a paused run can be stepped; pause it first.");
     owed_ += ticks;
     stepped_ = std::make_shared<std::promise<void>>();
     made = stepped_->get_future().share();

@@ -29,9 +29,9 @@ struct RunStatus {
   std::string state = "queued";
   std::string error;
   std::int64_t k = -1;
-  double t = 0;                              ///< s
-  std::optional<double> ticks_per_second;    ///< measured
-  bool idle = false;                         ///< sleeps because nobody watches
+  double t = 0;                            ///< s
+  std::optional<double> ticks_per_second;  ///< measured
+  bool idle = false;                       ///< sleeps because nobody watches
   Pace pace;
   std::optional<WallTime> started, ended;
   std::vector<MetricValue> metrics;
@@ -58,7 +58,8 @@ class LiveRun {
   std::shared_ptr<const RunStatus> status() const;
   std::int64_t tick() const { return tick_.load(std::memory_order_relaxed); }  ///< of the newest frame
 
-  /// Prepares, commits to the log, applies: the change is part of the run when this returns. Throws InputError, LogError.
+  /// Prepares, commits to the log, applies: the change is part of the run when this returns. Throws InputError,
+  /// LogError.
   Command command(const Json& body);
   void set_pace(Pace pace);
   void pause();

@@ -19,8 +19,8 @@
 namespace vigil {
 
 struct ManagerOptions {
-  int max_runs = 4;             ///< beside the demo
-  std::size_t max_queue = 64;   ///< runs that wait; each holds its state in memory
+  int max_runs = 4;            ///< beside the demo
+  std::size_t max_queue = 64;  ///< runs that wait; each holds its state in memory
 };
 
 class RunManager {
@@ -49,7 +49,8 @@ class RunManager {
     int max = 0;
   };
   Counts counts() const;
-  /// Ends every run: those that have begun become "stopped", those that wait "interrupted". Returns when all have ended.
+  /// Ends every run: those that have begun become "stopped", those that wait "interrupted". Returns when all have
+  /// ended.
   void stop();
 
  private:

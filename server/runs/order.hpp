@@ -23,17 +23,17 @@ struct RunOrder {
   Scenario scenario;
   std::uint64_t seed = 1;
   Pace pace;
-  std::optional<std::int64_t> trace_id;   ///< in the log
-  std::shared_ptr<const Trace> trace;     ///< its content
+  std::optional<std::int64_t> trace_id;  ///< in the log
+  std::shared_ptr<const Trace> trace;    ///< its content
   std::vector<std::string> tags;
   std::string note;
   std::optional<RunParent> parent;
-  std::vector<Command> commands;          ///< that belong to the run from the start
-  std::int64_t fast_until = -1;           ///< up to this tick the pace is not kept: what is repeated needs no waiting for
-  std::optional<std::int64_t> last;       ///< the run ends after this tick, whatever its document says
-  std::string end_state = "finished";     ///< the state it ends in then
+  std::vector<Command> commands;       ///< that belong to the run from the start
+  std::int64_t fast_until = -1;        ///< up to this tick the pace is not kept: what is repeated needs no waiting for
+  std::optional<std::int64_t> last;    ///< the run ends after this tick, whatever its document says
+  std::string end_state = "finished";  ///< the state it ends in then
   std::string idempotency_key, idempotency_hash;
-  bool sleeps_unwatched = false;          ///< the demo: no ticks while nobody watches
+  bool sleeps_unwatched = false;  ///< the demo: no ticks while nobody watches
 };
 
 /// Throws InputError where the scenario cannot be run as it is.

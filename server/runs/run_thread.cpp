@@ -1,8 +1,8 @@
 // The thread that steps a run: what is asked of it first, then rest or a tick.
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <set>
-
-#include <spdlog/spdlog.h>
 
 #include "server/runs/live_run.hpp"
 
@@ -11,14 +11,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPublish = 250ms;     // between two statuses
-constexpr auto kAnnounce = 1s;       // between two notes of progress in the global feed
-constexpr auto kCatchUp = 250ms;     // time lost beyond this is not made up for
-constexpr auto kUnwatched = 5s;      // of no viewer: the demo falls asleep
-constexpr auto kLook = 100ms;        // a sleeping demo looks for viewers this often
+constexpr auto kPublish = 250ms;  // between two statuses
+constexpr auto kAnnounce = 1s;    // between two notes of progress in the global feed
+constexpr auto kCatchUp = 250ms;  // time lost beyond this is not made up for
+constexpr auto kUnwatched = 5s;   // of no viewer: the demo falls asleep
+constexpr auto kLook = 100ms;     // a sleeping demo looks for viewers this often
 
 WallTime wall_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace

@@ -15,8 +15,11 @@ class BundleTest : public ApiTest {
   }
   /// A run that was changed and attacked by hand, and stopped.
   std::string eventful() {
-    const std::string id = client_->start(
-        {{"scenario", "consensus"}, {"seed", 11}, {"pace", 200}, {"patch", {{"time", {{"steps", nullptr}}}, {"log", {{"policy", "lossless"}}}}}});
+    const std::string id =
+        client_->start({{"scenario", "consensus"},
+                        {"seed", 11},
+                        {"pace", 200},
+                        {"patch", {{"time", {{"steps", nullptr}}}, {"log", {{"policy", "lossless"}}}}}});
     const auto after = [&](std::int64_t ticks) {
       const std::int64_t k = client_->tick(id);
       EXPECT_TRUE(eventually([&] { return client_->tick(id) >= k + ticks; }));
@@ -24,7 +27,11 @@ class BundleTest : public ApiTest {
     after(5);
     EXPECT_EQ(client_->patch(path(id), {{"params", {{"lanes.consensus.params.tau", 0.03}}}}).status, 200);
     after(5);
-    EXPECT_EQ(client_->post(path(id) + "/attacks", {{"id", "jam"}, {"type", "dos"}, {"on", {"link:*"}}, {"params", {{"probability", 0.5}}}}).status, 201);
+    EXPECT_EQ(client_
+                  ->post(path(id) + "/attacks",
+                         {{"id", "jam"}, {"type", "dos"}, {"on", {"link:*"}}, {"params", {{"probability", 0.5}}}})
+                  .status,
+              201);
     after(5);
     EXPECT_EQ(client_->remove(path(id) + "/attacks/jam").status, 200);
     EXPECT_EQ(client_->patch(path(id), {{"params", {{"adversary.links.enabled", false}}}}).status, 200);
@@ -43,7 +50,8 @@ TEST_F(BundleTest, ARunWithLiveCommandsIsRepeatedByteForByte) {
   EXPECT_EQ(bundle.json.at("frames"), original);
 
   std::ofstream(folder_.file("bundle.json")) << bundle.body;
-  const Outcome run = vigil_command({"run", folder_.file("bundle.json"), "--frames", folder_.file("frames.csv"), "--json", "-"});
+  const Outcome run =
+      vigil_command({"run", folder_.file("bundle.json"), "--frames", folder_.file("frames.csv"), "--json", "-"});
   ASSERT_EQ(run.code, 0) << run.error;
   std::ostringstream again;
   again << std::ifstream(folder_.file("frames.csv")).rdbuf();
@@ -62,7 +70,8 @@ TEST_F(BundleTest, AForkSharesThePastAndGoesItsOwnWay) {
   const std::string id = eventful();
   const std::int64_t last = client_->tick(id);
   const std::int64_t k = last - 2;
-  const Answer forked = client_->post(path(id) + "/fork", {{"k", k}, {"pace", "max"}, {"patch", {{"time", {{"steps", last + 10}}}}}});
+  const Answer forked =
+      client_->post(path(id) + "/fork", {{"k", k}, {"pace", "max"}, {"patch", {{"time", {{"steps", last + 10}}}}}});
   ASSERT_EQ(forked.status, 201) << forked.body;
   const std::string same = forked.json.at("id");
   EXPECT_EQ(forked.json.at("parent"), (Json{{"run", id}, {"k", k}}));
@@ -70,9 +79,11 @@ TEST_F(BundleTest, AForkSharesThePastAndGoesItsOwnWay) {
   EXPECT_EQ(frames(same, "?to=" + std::to_string(last)), frames(id));
   EXPECT_EQ(client_->tick(same), last + 10);
 
-  const Answer other = client_->post(path(id) + "/fork", {{"k", k},
-                                                          {"pace", "max"},
-                                                          {"patch", {{"time", {{"steps", last}}}, {"lanes", {{"consensus", {{"params", {{"tau", 0.1}}}}}}}}}});
+  const Answer other = client_->post(
+      path(id) + "/fork",
+      {{"k", k},
+       {"pace", "max"},
+       {"patch", {{"time", {{"steps", last}}}, {"lanes", {{"consensus", {{"params", {{"tau", 0.1}}}}}}}}}});
   ASSERT_EQ(other.status, 201) << other.body;
   const std::string differs = other.json.at("id");
   ASSERT_TRUE(client_->reaches(differs, "finished"));
@@ -96,11 +107,15 @@ TEST_F(BundleTest, AForkMayNotAlterThePast) {
   refused({{"k", 3}, {"patch", {{"noise", {{"Q", {1, 1, 1}}}}}}}, "/patch/noise/Q");
   refused({{"k", 3}, {"patch", {{"time", {{"dt", 2}}}}}}, "/patch/time/dt");
   refused({{"k", 3}, {"patch", {{"time", {{"steps", 2}}}}}}, "/patch/time/steps");
-  refused({{"k", 3}, {"patch", {{"adversary", {{"late", {{"type", "dos"}, {"on", {"link:*"}}, {"from", 2}}}}}}}}, "/patch/adversary/late/from");
+  refused({{"k", 3}, {"patch", {{"adversary", {{"late", {{"type", "dos"}, {"on", {"link:*"}}, {"from", 2}}}}}}}},
+          "/patch/adversary/late/from");
   refused({{"k", 3}, {"patch", {{"lanes", {{"consensus", {{"params", {{"tau", -1}}}}}}}}}}, "/patch");
-  const Answer late = client_->post(path(id) + "/fork",
-                                    {{"k", 3}, {"pace", "max"},
-                                     {"patch", {{"time", {{"steps", 9}}}, {"adversary", {{"late", {{"type", "dos"}, {"on", {"link:*"}}, {"from", 6}}}}}}}});
+  const Answer late = client_->post(
+      path(id) + "/fork",
+      {{"k", 3},
+       {"pace", "max"},
+       {"patch",
+        {{"time", {{"steps", 9}}}, {"adversary", {{"late", {{"type", "dos"}, {"on", {"link:*"}}, {"from", 6}}}}}}}});
   EXPECT_EQ(late.status, 201) << late.body;
 }
 

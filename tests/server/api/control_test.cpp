@@ -61,7 +61,8 @@ TEST_F(ControlTest, ParametersOfAPausedRunActOnTheNextTick) {
 
 TEST_F(ControlTest, AttacksStartAndEnd) {
   const std::string id = endless();
-  const Answer started = client_->post(path(id) + "/attacks", {{"type", "dos"}, {"on", {"link:1-2"}}, {"params", {{"probability", 1}}}});
+  const Answer started =
+      client_->post(path(id) + "/attacks", {{"type", "dos"}, {"on", {"link:1-2"}}, {"params", {{"probability", 1}}}});
   ASSERT_EQ(started.status, 201) << started.body;
   const std::string attack = started.json.at("id");
   EXPECT_GT(started.json.at("k").get<std::int64_t>(), 0);
@@ -80,23 +81,31 @@ TEST_F(ControlTest, BadChangesChangeNothing) {
     int status;
     const char* pointer;
   };
-  for (const Bad& bad : {Bad{"{", 400, ""}, Bad{"[1]", 400, ""}, Bad{R"({"stat":"paused"})", 422, "/stat"}, Bad{R"({"state":"finished"})", 422, "/state"},
-                         Bad{R"({"state":3})", 422, "/state"}, Bad{R"({"pace":-1})", 422, "/pace"}, Bad{R"({"step":0})", 422, "/step"},
-                         Bad{R"({"step":1e9})", 422, "/step"}, Bad{R"({"step":true})", 422, "/step"}, Bad{R"({"params":[]})", 422, "/params"},
-                         Bad{R"({"params":{}})", 422, "/params"}, Bad{R"({"params":{"no.such":1}})", 422, ""},
-                         Bad{R"({"params":{"lanes.consensus.params.tau":-1}})", 422, ""}, Bad{R"({"params":{"lanes.consensus.params.tau":"x"}})", 422, ""},
-                         Bad{R"({"params":{"plant.params.b":1}})", 422, ""}, Bad{R"({"params":{"lanes.consensus.params.tau":1e999}})", 400, ""},
-                         Bad{R"({"tags":{}})", 422, "/tags"}, Bad{R"({"note":[]})", 422, "/note"}, Bad{R"({"state":"running","step":2})", 422, "/step"}}) {
+  for (const Bad& bad :
+       {Bad{"{", 400, ""}, Bad{"[1]", 400, ""}, Bad{R"({"stat":"paused"})", 422, "/stat"},
+        Bad{R"({"state":"finished"})", 422, "/state"}, Bad{R"({"state":3})", 422, "/state"},
+        Bad{R"({"pace":-1})", 422, "/pace"}, Bad{R"({"step":0})", 422, "/step"}, Bad{R"({"step":1e9})", 422, "/step"},
+        Bad{R"({"step":true})", 422, "/step"}, Bad{R"({"params":[]})", 422, "/params"},
+        Bad{R"({"params":{}})", 422, "/params"}, Bad{R"({"params":{"no.such":1}})", 422, ""},
+        Bad{R"({"params":{"lanes.consensus.params.tau":-1}})", 422, ""},
+        Bad{R"({"params":{"lanes.consensus.params.tau":"x"}})", 422, ""},
+        Bad{R"({"params":{"plant.params.b":1}})", 422, ""},
+        Bad{R"({"params":{"lanes.consensus.params.tau":1e999}})", 400, ""}, Bad{R"({"tags":{}})", 422, "/tags"},
+        Bad{R"({"note":[]})", 422, "/note"}, Bad{R"({"state":"running","step":2})", 422, "/step"}}) {
     SCOPED_TRACE(bad.body);
     expect_problem(client_->send("PATCH", path(id), bad.body), bad.status, bad.pointer);
   }
-  for (const char* body : {R"({})", R"({"type":"nosuch","on":["link:*"]})", R"({"type":"dos","on":["link:1-99"]})", R"({"type":"dos","on":"link:*"})",
-                           R"({"type":"dos","on":["link:*"],"params":{"probability":2}})", R"({"type":"dos","on":["link:*"],"params":{"q":1}})",
-                           R"({"type":"dos","on":["link:*"],"extra":1})", R"({"type":"dos","on":["link:*"],"from":"x"})"}) {
+  for (const char* body :
+       {R"({})", R"({"type":"nosuch","on":["link:*"]})", R"({"type":"dos","on":["link:1-99"]})",
+        R"({"type":"dos","on":"link:*"})", R"({"type":"dos","on":["link:*"],"params":{"probability":2}})",
+        R"({"type":"dos","on":["link:*"],"params":{"q":1}})", R"({"type":"dos","on":["link:*"],"extra":1})",
+        R"({"type":"dos","on":["link:*"],"from":"x"})"}) {
     SCOPED_TRACE(body);
     expect_problem(client_->send("POST", path(id) + "/attacks", body), 422);
   }
-  expect_problem(client_->post(path(id) + "/attacks", {{"type", "dos"}, {"on", {"link:*"}}, {"params", {{"probability", 2}}}}), 422, "/params/probability");
+  expect_problem(
+      client_->post(path(id) + "/attacks", {{"type", "dos"}, {"on", {"link:*"}}, {"params", {{"probability", 2}}}}),
+      422, "/params/probability");
   const Json run = client_->get(path(id)).json;
   EXPECT_TRUE(run.at("commands").empty());
   EXPECT_EQ(run.at("state"), "paused");

@@ -44,7 +44,8 @@ TEST_F(DataTest, SignalsArePickedByNamePatternAndId) {
   const Json globbed = client_->get(path_ + "/samples?signals=lane.consensus.*.error&from=10&to=20").json;
   EXPECT_EQ(globbed.at("series").size(), 8u);
   EXPECT_EQ(globbed.at("k").size(), 11u);
-  for (const char* query : {"signals=no.such", "signals=9999", "signals=truth.x,", "from=-1", "from=x", "to=1e9", "points=1", "points=1000000"}) {
+  for (const char* query : {"signals=no.such", "signals=9999", "signals=truth.x,", "from=-1", "from=x", "to=1e9",
+                            "points=1", "points=1000000"}) {
     SCOPED_TRACE(query);
     const bool trailing_comma = std::string(query) == "signals=truth.x,";
     const Answer answer = client_->get(path_ + "/samples?" + query);
@@ -93,14 +94,16 @@ TEST_F(DataTest, MarksAreFilteredAndPaged) {
 }
 
 TEST_F(DataTest, AStreamTellsTheRunAndItsEnd) {
-  const std::string live = client_->start({{"scenario", "consensus"}, {"pace", 40}, {"patch", {{"time", {{"steps", 60}}}}}});
+  const std::string live =
+      client_->start({{"scenario", "consensus"}, {"pace", 40}, {"patch", {{"time", {{"steps", 60}}}}}});
   httplib::Client viewer("127.0.0.1", client_->port());
   viewer.set_read_timeout(60);
   std::string seen;
-  viewer.Get(("/api/v1/runs/" + live + "/stream?topic=lane:consensus").c_str(), [&](const char* data, std::size_t size) {
-    seen.append(data, size);
-    return true;
-  });
+  viewer.Get(("/api/v1/runs/" + live + "/stream?topic=lane:consensus").c_str(),
+             [&](const char* data, std::size_t size) {
+               seen.append(data, size);
+               return true;
+             });
   EXPECT_NE(seen.find("event: hello"), std::string::npos);
   EXPECT_NE(seen.find("event: frame"), std::string::npos);
   EXPECT_NE(seen.find("\"code\":\"finished\""), std::string::npos);

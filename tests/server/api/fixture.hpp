@@ -95,7 +95,8 @@ class Client {
   }
   std::string state(const std::string& id) const {
     const Answer answer = get("/api/v1/runs/" + id);
-    return answer.status == 200 ? answer.json.at("state").get<std::string>() : "status " + std::to_string(answer.status);
+    return answer.status == 200 ? answer.json.at("state").get<std::string>()
+                                : "status " + std::to_string(answer.status);
   }
   std::int64_t tick(const std::string& id) const {
     return get("/api/v1/runs/" + id).json.at("progress").at("k").get<std::int64_t>();
@@ -132,7 +133,8 @@ inline void expect_problem(const Answer& answer, int status, const std::string& 
   EXPECT_FALSE(answer.json.value("detail", "").empty());
   if (pointer.empty()) return;
   bool named = false;
-  for (const Json& error : answer.json.value("errors", Json::array())) named = named || error.value("pointer", "") == pointer;
+  for (const Json& error : answer.json.value("errors", Json::array()))
+    named = named || error.value("pointer", "") == pointer;
   EXPECT_TRUE(named) << "no error at " << pointer << ": " << answer.body;
 }
 

@@ -6,7 +6,8 @@ namespace {
 using RunsTest = ApiTest;
 
 TEST_F(RunsTest, ARunFinishesAndIsFoundAgain) {
-  const Answer made = client_->post("/api/v1/runs", {{"scenario", "consensus"}, {"seed", 7}, {"tags", {"a", "b"}}, {"note", "first"}});
+  const Answer made =
+      client_->post("/api/v1/runs", {{"scenario", "consensus"}, {"seed", 7}, {"tags", {"a", "b"}}, {"note", "first"}});
   ASSERT_EQ(made.status, 201) << made.body;
   const std::string id = made.json.at("id");
   EXPECT_EQ(made.header("Location"), "/api/v1/runs/" + id);
@@ -77,7 +78,8 @@ TEST_F(RunsTest, BadBodiesGetOneClearProblem) {
       {R"({"scenario":"consensus","patch":[]})", 422, "/patch"},
       {R"({"scenario":"consensus","patch":{"lane":{}}})", 422, "/patch/lane"},
       {R"({"scenario":"consensus","patch":{"time":{"steps":-3}}})", 422, "/patch/time/steps"},
-      {R"({"scenario":"consensus","patch":{"lanes":{"consensus":{"params":{"tau":"x"}}}}})", 422, "/patch/lanes/consensus/params/tau"},
+      {R"({"scenario":"consensus","patch":{"lanes":{"consensus":{"params":{"tau":"x"}}}}})", 422,
+       "/patch/lanes/consensus/params/tau"},
       {R"({"scenario":"consensus","input":"ingest"})", 422, "/input"},
       {R"({"scenario":"consensus","input":{"trace":"99"}})", 422, "/input/trace"},
       {R"({"scenario":"consensus","input":{"trace":-1}})", 422, "/input/trace"},
@@ -105,9 +107,10 @@ TEST_F(RunsTest, DeepAndLargeBodiesAreRefused) {
 }
 
 TEST_F(RunsTest, UnknownRunsAndPathsAreNotFound) {
-  for (const char* path : {"/api/v1/runs/99", "/api/v1/runs/abc", "/api/v1/runs/-1", "/api/v1/runs/99999999999999999999999",
-                           "/api/v1/runs/99/signals", "/api/v1/runs/99/samples", "/api/v1/runs/99/marks", "/api/v1/runs/99/bundle",
-                           "/api/v1/runs/99/stream", "/api/v1/nothing", "/api/v2/runs"}) {
+  for (const char* path :
+       {"/api/v1/runs/99", "/api/v1/runs/abc", "/api/v1/runs/-1", "/api/v1/runs/99999999999999999999999",
+        "/api/v1/runs/99/signals", "/api/v1/runs/99/samples", "/api/v1/runs/99/marks", "/api/v1/runs/99/bundle",
+        "/api/v1/runs/99/stream", "/api/v1/nothing", "/api/v2/runs"}) {
     SCOPED_TRACE(path);
     expect_problem(client_->get(path), 404);
   }
@@ -127,14 +130,16 @@ TEST_F(RunsTest, TheSameKeyStartsOneRun) {
   EXPECT_EQ(second.status, 201);
   EXPECT_EQ(second.json.at("id"), first.json.at("id"));
   EXPECT_EQ(second.header("Idempotency-Replayed"), "true");
-  expect_problem(client_->post("/api/v1/runs", {{"scenario", "consensus"}, {"seed", 4}}, {{"Idempotency-Key", "k1"}}), 422);
+  expect_problem(client_->post("/api/v1/runs", {{"scenario", "consensus"}, {"seed", 4}}, {{"Idempotency-Key", "k1"}}),
+                 422);
   expect_problem(client_->post("/api/v1/runs", body, {{"Idempotency-Key", std::string(300, 'k')}}), 400);
   EXPECT_EQ(client_->get("/api/v1/runs").json.at("items").size(), 1u);
 }
 
 TEST_F(RunsTest, ListsArePagedSortedAndFiltered) {
   for (int seed = 1; seed <= 5; ++seed) {
-    const std::string id = client_->start({{"scenario", "consensus"}, {"seed", seed}, {"patch", {{"time", {{"steps", 2}}}}}});
+    const std::string id =
+        client_->start({{"scenario", "consensus"}, {"seed", seed}, {"patch", {{"time", {{"steps", 2}}}}}});
     ASSERT_TRUE(client_->reaches(id, "finished"));
   }
   std::vector<int> seeds;
@@ -148,7 +153,8 @@ TEST_F(RunsTest, ListsArePagedSortedAndFiltered) {
   EXPECT_EQ(client_->get("/api/v1/runs").json.at("items")[0].at("seed"), 5);
   EXPECT_EQ(client_->get("/api/v1/runs?q=seed:2..3%20OR%20seed:5").json.at("items").size(), 3u);
   EXPECT_EQ(client_->get("/api/v1/runs?q=state:finished%20AND%20seed%3E4").json.at("items").size(), 1u);
-  for (const char* query : {"q=seed:", "q=(", "q=nosuchfield:1", "limit=0", "limit=x", "limit=100000", "cursor=zzz", "sort=nosuch"}) {
+  for (const char* query :
+       {"q=seed:", "q=(", "q=nosuchfield:1", "limit=0", "limit=x", "limit=100000", "cursor=zzz", "sort=nosuch"}) {
     SCOPED_TRACE(query);
     expect_problem(client_->get(std::string("/api/v1/runs?") + query), 400);
   }

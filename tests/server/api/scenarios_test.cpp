@@ -77,8 +77,8 @@ TEST_F(TracesTest, ATraceIsStoredOnceListedReadAndDeleted) {
 }
 
 TEST_F(TracesTest, WhatIsNoTraceIsRefused) {
-  for (const char* text : {"", "a,b\n1,2\n", "k,t,x\n0,0\n", "k,t,x\n0,0,abc\n", "k,t,x\n0,0,nan\n", "k,t,x\n0,0,1e999\n", "k,t,x,x\n0,0,1,1\n",
-                           "k,t,x\n0,0,1\n2,2,1\n", "k,t,\xff\n0,0,1\n"}) {
+  for (const char* text : {"", "a,b\n1,2\n", "k,t,x\n0,0\n", "k,t,x\n0,0,abc\n", "k,t,x\n0,0,nan\n",
+                           "k,t,x\n0,0,1e999\n", "k,t,x,x\n0,0,1,1\n", "k,t,x\n0,0,1\n2,2,1\n", "k,t,\xff\n0,0,1\n"}) {
     SCOPED_TRACE(text);
     expect_problem(client_->send("POST", "/api/v1/traces", text, "text/csv"), 422);
   }
@@ -102,7 +102,8 @@ TEST_F(TracesTest, FramesOfARunAreATraceWithTheSameLanes) {
   ASSERT_TRUE(client_->reaches(second, "finished"));
   EXPECT_EQ(client_->get("/api/v1/runs/" + second).json.at("input"), again["input"]);
   const std::string lanes = "/samples?signals=lane.*.estimate.*";
-  EXPECT_EQ(client_->get("/api/v1/runs/" + second + lanes, csv).body, client_->get("/api/v1/runs/" + first + lanes, csv).body);
+  EXPECT_EQ(client_->get("/api/v1/runs/" + second + lanes, csv).body,
+            client_->get("/api/v1/runs/" + first + lanes, csv).body);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ TEST_F(SystemTest, HealthVersionAndMetrics) {
   EXPECT_EQ(server.at("auth"), false);
   const Answer metrics = client_->get("/metrics");
   EXPECT_EQ(metrics.header("Content-Type"), "text/plain; version=0.0.4; charset=utf-8");
-  EXPECT_NE(metrics.body.find("# TYPE vigil_http_requests_total counter\nvigil_http_requests_total "), std::string::npos);
+  EXPECT_NE(metrics.body.find("# TYPE vigil_http_requests_total counter\nvigil_http_requests_total "),
+            std::string::npos);
   EXPECT_NE(metrics.body.find("vigil_runs{state=\"queued\"} 0\n"), std::string::npos);
 }
 
@@ -37,7 +38,8 @@ TEST_F(SystemTest, ATokenIsAskedForOnceSet) {
   expect_problem(client_->get("/metrics"), 401);
   expect_problem(client_->post("/api/v1/runs", {{"scenario", "consensus"}}), 401);
   EXPECT_EQ(client_->get("/healthz").status, 200);
-  const httplib::Headers full{{"Authorization", "Bearer 0123456789abcdef"}}, viewer{{"Authorization", "Bearer viewer-0123456789"}};
+  const httplib::Headers full{{"Authorization", "Bearer 0123456789abcdef"}},
+      viewer{{"Authorization", "Bearer viewer-0123456789"}};
   EXPECT_EQ(client_->get("/api/v1/server", full).json.at("auth"), true);
   EXPECT_EQ(client_->get("/api/v1/runs", viewer).status, 200);
   expect_problem(client_->post("/api/v1/runs", {{"scenario", "consensus"}}, viewer), 403);
@@ -86,20 +88,26 @@ class EveryRoute : public SystemTest {
   int call(const std::string& method, const std::string& pattern) const {
     const std::string path = fill(pattern, method);
     std::string verb = method;
-    std::transform(verb.begin(), verb.end(), verb.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::transform(verb.begin(), verb.end(), verb.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     if (pattern.ends_with("/stream")) return stream(path);
     if (method == "get") return client_->get(path).status;
-    return client_->send(verb, path, body(method, pattern), pattern.ends_with("/traces") ? "text/csv" : "application/json").status;
+    return client_
+        ->send(verb, path, body(method, pattern), pattern.ends_with("/traces") ? "text/csv" : "application/json")
+        .status;
   }
 
   int stream(const std::string& path) const {
     httplib::Client client("127.0.0.1", client_->port());
     client.set_read_timeout(60);
     int status = 0;
-    client.Get(path.c_str(), [&](const httplib::Response& response) {
-      status = response.status;
-      return true;
-    }, [](const char*, std::size_t) { return false; });
+    client.Get(
+        path.c_str(),
+        [&](const httplib::Response& response) {
+          status = response.status;
+          return true;
+        },
+        [](const char*, std::size_t) { return false; });
     return status;
   }
 
@@ -121,7 +129,8 @@ TEST_F(EveryRoute, OfTheDescriptionAnswers) {
   }
   EXPECT_GE(operations.size(), 24u);
   // What is in a thing goes before the thing.
-  std::sort(deletions.begin(), deletions.end(), [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+  std::sort(deletions.begin(), deletions.end(),
+            [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
   operations.insert(operations.end(), deletions.begin(), deletions.end());
   for (const auto& [method, path] : operations) {
     SCOPED_TRACE(method + " " + path);
@@ -137,11 +146,14 @@ TEST_F(EveryRoute, RefusesWhatIsMalformedWithoutAFault) {
   for (const auto& [pattern, methods] : api.at("paths").items()) {
     for (const auto& [method, operation] : methods.items()) {
       if (method == "get" || method == "delete") continue;
-      for (const char* text : {"{", "[]", "null", "\"x\"", "1e999", "{\"a\":NaN}", "{\"nosuchkey\":1}", "\xff", "{\"k\":-1}", "{\"k\":\"x\"}"}) {
+      for (const char* text : {"{", "[]", "null", "\"x\"", "1e999", "{\"a\":NaN}", "{\"nosuchkey\":1}", "\xff",
+                               "{\"k\":-1}", "{\"k\":\"x\"}"}) {
         SCOPED_TRACE(method + " " + pattern + " " + text);
         std::string verb = method;
-        std::transform(verb.begin(), verb.end(), verb.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-        const Answer answer = client_->send(verb, fill(pattern, method), text, pattern.ends_with("/traces") ? "text/csv" : "application/json");
+        std::transform(verb.begin(), verb.end(), verb.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+        const Answer answer = client_->send(verb, fill(pattern, method), text,
+                                            pattern.ends_with("/traces") ? "text/csv" : "application/json");
         if (pattern.ends_with("/session") && answer.status == 204) continue;
         EXPECT_GE(answer.status, 400);
         EXPECT_LT(answer.status, 500) << answer.body;

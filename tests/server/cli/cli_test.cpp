@@ -23,7 +23,8 @@ void expect_bad(const std::vector<std::string>& arguments, const std::string& wo
 
 TEST(CommandLine, RunPrintsATableAndJson) {
   const TemporaryFolder folder;
-  const Outcome table = vigil_command({"run", "consensus", "--seed", "3", "--steps", "10", "--json", folder.file("run.json")});
+  const Outcome table =
+      vigil_command({"run", "consensus", "--seed", "3", "--steps", "10", "--json", folder.file("run.json")});
   ASSERT_EQ(table.code, 0) << table.error;
   EXPECT_NE(table.output.find("rmse_position"), std::string::npos);
   EXPECT_NE(table.output.find("infeasible_28"), std::string::npos);
@@ -44,8 +45,9 @@ TEST(CommandLine, RunPrintsATableAndJson) {
 TEST(CommandLine, SetsPatchesAndFilesAreApplied) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("patch.json")) << R"({"time":{"steps":6}})";
-  const Outcome patched = vigil_command({"run", "consensus", "--patch", folder.file("patch.json"), "--set", "lanes.consensus.params.tau=0.02", "--set",
-                                         "adversary.links.params.pdos=0.9", "--set", "adversary.links.params.pfdi=0.05", "--json", "-"});
+  const Outcome patched = vigil_command({"run", "consensus", "--patch", folder.file("patch.json"), "--set",
+                                         "lanes.consensus.params.tau=0.02", "--set", "adversary.links.params.pdos=0.9",
+                                         "--set", "adversary.links.params.pfdi=0.05", "--json", "-"});
   ASSERT_EQ(patched.code, 0) << patched.error;
   EXPECT_EQ(Json::parse(patched.output).at("steps"), 6);
   std::ofstream(folder.file("own.json")) << vigil_command({"scenarios", "consensus"}).output;
@@ -81,7 +83,8 @@ TEST(CommandLine, BadInputIsOneSentenceAndCodeTwo) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("broken.json")) << "{";
   std::ofstream(folder.file("infinite.json")) << R"({"vigil":1e999})";
-  std::ofstream(folder.file("other.db")) << "this is no database, but it is long enough to be looked at as one by a careless reader";
+  std::ofstream(folder.file("other.db"))
+      << "this is no database, but it is long enough to be looked at as one by a careless reader";
   expect_bad({}, "subcommand");
   expect_bad({"synthesize", "consensus"}, "no command");
   expect_bad({"run"}, "SCENARIO");
@@ -118,8 +121,9 @@ TEST(CommandLine, BadInputIsOneSentenceAndCodeTwo) {
 
 TEST(CommandLine, ACampaignDoesNotDependOnItsThreads) {
   const auto campaign = [](const char* threads) {
-    const Outcome outcome = vigil_command({"campaign", "consensus", "--runs", "7", "--threads", threads, "--set", "time.steps=10", "--sweep",
-                                           "lanes.consensus.params.tau=0.01,0.02", "--json", "-"});
+    const Outcome outcome =
+        vigil_command({"campaign", "consensus", "--runs", "7", "--threads", threads, "--set", "time.steps=10",
+                       "--sweep", "lanes.consensus.params.tau=0.01,0.02", "--json", "-"});
     EXPECT_EQ(outcome.code, 0) << outcome.error;
     Json result = Json::parse(outcome.output);
     result.erase("timing");
@@ -139,7 +143,10 @@ TEST(CommandLine, ACampaignDoesNotDependOnItsThreads) {
 
 TEST(CommandLine, ACampaignIsLogged) {
   const TemporaryFolder folder;
-  ASSERT_EQ(vigil_command({"campaign", "consensus", "--runs", "3", "--set", "time.steps=4", "--db", folder.file("log.db")}).code, 0);
+  ASSERT_EQ(
+      vigil_command({"campaign", "consensus", "--runs", "3", "--set", "time.steps=4", "--db", folder.file("log.db")})
+          .code,
+      0);
   const LogReader reader(folder.file("log.db"));
   const auto campaigns = reader.campaigns();
   ASSERT_EQ(campaigns.size(), 1u);

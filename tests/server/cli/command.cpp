@@ -31,7 +31,8 @@ pid_t start(const std::vector<std::string>& arguments, int output, int error) {
 std::string read_all(int file) {
   std::string text;
   char part[4096];
-  for (ssize_t n = read(file, part, sizeof part); n > 0; n = read(file, part, sizeof part)) text.append(part, static_cast<std::size_t>(n));
+  for (ssize_t n = read(file, part, sizeof part); n > 0; n = read(file, part, sizeof part))
+    text.append(part, static_cast<std::size_t>(n));
   close(file);
   return text;
 }

@@ -11,10 +11,12 @@ namespace {
 TEST(Serve, SaysWhereItListensAndEndsCleanly) {
   const TemporaryFolder folder;
   ServerProcess server({"--db", folder.file("log.db")});
-  EXPECT_EQ(server.first_line(), "vigil " + std::string(version()) + " listening on http://127.0.0.1:" + std::to_string(server.port()));
+  EXPECT_EQ(server.first_line(),
+            "vigil " + std::string(version()) + " listening on http://127.0.0.1:" + std::to_string(server.port()));
   const Client client(server.port());
   EXPECT_FALSE(client.get("/api/v1/server").json.at("demo").is_null());
-  const std::string id = client.start({{"scenario", "consensus"}, {"pace", 20}, {"patch", {{"time", {{"steps", nullptr}}}}}});
+  const std::string id =
+      client.start({{"scenario", "consensus"}, {"pace", 20}, {"patch", {{"time", {{"steps", nullptr}}}}}});
   ASSERT_TRUE(eventually([&] { return client.tick(id) > 2; }));
   EXPECT_EQ(server.end(SIGTERM), 0);
   const LogReader reader(folder.file("log.db"));
@@ -35,7 +37,8 @@ TEST(Serve, InterruptEndsItToo) {
 TEST(Serve, APortOrLogInUseIsSaidInOneSentence) {
   const TemporaryFolder folder;
   ServerProcess server({"--db", folder.file("log.db"), "--no-demo"});
-  const Outcome port = vigil_command({"serve", "--port", std::to_string(server.port()), "--db", folder.file("other.db"), "--no-demo"});
+  const Outcome port =
+      vigil_command({"serve", "--port", std::to_string(server.port()), "--db", folder.file("other.db"), "--no-demo"});
   EXPECT_EQ(port.code, 2) << port.error;
   EXPECT_EQ(port.output, "");
   const Outcome log = vigil_command({"serve", "--port", "0", "--db", folder.file("log.db")});
@@ -47,7 +50,9 @@ TEST(Serve, ATokenOpensOtherHosts) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("token")) << "0123456789abcdef0123\n";
   std::ofstream(folder.file("short")) << "abc\n";
-  EXPECT_EQ(vigil_command({"serve", "--port", "0", "--db", folder.file("x.db"), "--token-file", folder.file("short")}).code, 2);
+  EXPECT_EQ(
+      vigil_command({"serve", "--port", "0", "--db", folder.file("x.db"), "--token-file", folder.file("short")}).code,
+      2);
   ServerProcess server({"--host", "0.0.0.0", "--db", folder.file("log.db"), "--token-file", folder.file("token")});
   const Client client(server.port());
   EXPECT_EQ(client.get("/api/v1/server").status, 401);
@@ -64,11 +69,13 @@ struct Acknowledged {
 Acknowledged work(const Client& client, int round) {
   Acknowledged done;
   done.key = "key-" + std::to_string(round);
-  const Json body{{"scenario", "consensus"}, {"seed", round}, {"pace", 300}, {"patch", {{"time", {{"steps", nullptr}}}}}};
+  const Json body{
+      {"scenario", "consensus"}, {"seed", round}, {"pace", 300}, {"patch", {{"time", {{"steps", nullptr}}}}}};
   done.run = client.post("/api/v1/runs", body, {{"Idempotency-Key", done.key}}).json.at("id");
   EXPECT_TRUE(eventually([&] { return client.tick(done.run) > 5 * (round % 7); }));
   for (int i = 0; i < 1 + round % 3; ++i) {
-    const Answer answer = client.patch("/api/v1/runs/" + done.run, {{"params", {{"lanes.consensus.params.tau", 0.01 + 0.001 * i}}}});
+    const Answer answer =
+        client.patch("/api/v1/runs/" + done.run, {{"params", {{"lanes.consensus.params.tau", 0.01 + 0.001 * i}}}});
     if (answer.status == 200) ++done.commands;
   }
   return done;
@@ -90,7 +97,8 @@ TEST(Serve, AKillLosesNothingThatWasAcknowledged) {
       EXPECT_EQ(run.at("commands").size(), earlier.commands);
     }
     if (!all.empty()) {
-      const Json same{{"scenario", "consensus"}, {"seed", round - 1}, {"pace", 300}, {"patch", {{"time", {{"steps", nullptr}}}}}};
+      const Json same{
+          {"scenario", "consensus"}, {"seed", round - 1}, {"pace", 300}, {"patch", {{"time", {{"steps", nullptr}}}}}};
       EXPECT_EQ(client.post("/api/v1/runs", same, {{"Idempotency-Key", all.back().key}}).json.at("id"), all.back().run);
     }
     all.push_back(work(client, round));

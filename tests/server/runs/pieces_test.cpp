@@ -73,7 +73,8 @@ TEST(Topics, OverviewLanesAndAll) {
 }
 
 TEST(SignalQuery, KeepsTheOrderAskedFor) {
-  const std::vector<Signal> signals{{.id = 0, .name = "truth.x"}, {.id = 1, .name = "truth.y"}, {.id = 2, .name = "lane.a.rmse"}};
+  const std::vector<Signal> signals{
+      {.id = 0, .name = "truth.x"}, {.id = 1, .name = "truth.y"}, {.id = 2, .name = "lane.a.rmse"}};
   EXPECT_EQ(pick_signals("", signals), (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(pick_signals("lane.*,truth.y,1,*", signals), (std::vector<int>{2, 1, 0}));
   EXPECT_THROW(pick_signals("truth.z", signals), HttpError);
@@ -96,7 +97,8 @@ TEST(Assignments, ThatAreValidTogetherMayComeInAnyOrder) {
   const Scenario base = Scenario::preset("consensus");
   const std::pair<std::string, Json> graph{"network.graph", "edges"}, edges{"network.edges", Json{{1, 2}, {2, 3}}};
   EXPECT_THROW(with_all(base, {graph}), InputError);
-  EXPECT_EQ(with_all(base, {graph, edges}).document().at("network"), with_all(base, {edges, graph}).document().at("network"));
+  EXPECT_EQ(with_all(base, {graph, edges}).document().at("network"),
+            with_all(base, {edges, graph}).document().at("network"));
 }
 
 TEST(Fork, ChangesOfTheFutureBecomeCommands) {
@@ -104,7 +106,8 @@ TEST(Fork, ChangesOfTheFutureBecomeCommands) {
   parent.id = 4;
   parent.document = Scenario::preset("consensus").document();
   parent.seed = 9;
-  parent.commands = {{2, {{"params", {{"lanes.consensus.params.tau", 0.02}}}}}, {8, {{"params", {{"lanes.consensus.params.tau", 0.03}}}}}};
+  parent.commands = {{2, {{"params", {{"lanes.consensus.params.tau", 0.02}}}}},
+                     {8, {{"params", {{"lanes.consensus.params.tau", 0.03}}}}}};
   const Json patch = {{"time", {{"steps", 50}}}, {"adversary", {{"links", nullptr}}}};
   const RunOrder order = fork_order(parent, 5, patch, nullptr);
   EXPECT_EQ(order.seed, 9u);
@@ -137,7 +140,8 @@ TEST(BundleFile, ComesBackAsItWas) {
 
 TEST(Campaign, CallsBackInOrderAndStopsWhenAsked) {
   CampaignPlan plan;
-  plan.points = make_grid(Scenario::preset("consensus").with("time.steps", 3), {{"lanes.consensus.params.tau", {0.01, 0.02}}});
+  plan.points =
+      make_grid(Scenario::preset("consensus").with("time.steps", 3), {{"lanes.consensus.params.tau", {0.01, 0.02}}});
   plan.runs = 5;
   plan.threads = 3;
   std::atomic<bool> stop{false};
