@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 import { openBrowser, openPage } from './support/browser.mjs';
 import { button, csvOf, cursorOf, openLive, rangeOf, shownTick, tickPast } from './support/live.mjs';
-import { call, startServer, until } from './support/server.mjs';
+import { call, runUntil, startServer, until } from './support/server.mjs';
 
 describe('live page', () => {
   let server;
@@ -149,6 +149,43 @@ describe('live page', () => {
     await page.getByText(nasty).first().waitFor();
     assert.equal(await page.locator('main img, header img').count(), 0);
     assert.notEqual(await page.title(), '1');
+    await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
+  });
+
+  test('a run that waits for its turn comes alive on the open page', async () => {
+    const small = await startServer({ options: ['--no-demo', '--max-runs', '1'] });
+    try {
+      const view = await openPage(browser, small);
+      const { page } = view;
+      const endless = { scenario: 'consensus', pace: 20, patch: { time: { steps: null } } };
+      const first = await call(small, 'POST', '/runs', endless);
+      await runUntil(small, first.id, 'running');
+      const second = await call(small, 'POST', '/runs', endless);
+      await view.goto(`/live/${second.id}`);
+      await page.getByText('queued', { exact: true }).first().waitFor();
+      await call(small, 'PATCH', `/runs/${first.id}`, { state: 'stopped' });
+      await tickPast(page, 5);
+      await page.getByText('This run has no plane').waitFor({ state: 'detached' });
+      await view.close();
+    } finally {
+      await small.stop();
+    }
+  });
+
+  test('a page opened before the run has told its signals waits for them', async () => {
+    const view = await openPage(browser, server);
+    const { page } = view;
+    const run = await call(server, 'POST', '/runs', { scenario: 'consensus', pace: 20, patch: { time: { steps: null } } });
+    let early = 2;
+    await page.route('**/signals', async (route) => {
+      early -= 1;
+      if (early >= 0) await route.fulfill({ json: { items: [], next: null } });
+      else await route.fallback();
+    });
+    await view.goto(`/live/${run.id}`);
+    await tickPast(page, 5);
+    await page.getByRole('button', { name: /^Position error: Save as CSV/ }).waitFor();
     await view.close();
     await call(server, 'DELETE', `/runs/${run.id}`);
   });
