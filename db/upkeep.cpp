@@ -104,14 +104,31 @@ void Upkeep::retain(const RetentionLimits& limits, WallTime now) {
         .run();
     transaction.commit();
   }
-  if (!limits.gib || removing()) return;
-  if (static_cast<double>(used_bytes(database_)) <= *limits.gib * 1073741824.0) return;
+  if (!above(limits) || removing()) return;
   Transaction transaction(database_);
   database_
       .cached(joined({"UPDATE run SET deleted=1 WHERE id=(SELECT id FROM run WHERE ", kEnded, " ORDER BY ", kTagged,
                       ",ended,id LIMIT 1)"}))
       .run();
   transaction.commit();
+}
+
+bool Upkeep::above(const RetentionLimits& limits) const {
+  return limits.gib && static_cast<double>(used_bytes(database_)) > *limits.gib * 1073741824.0;
+}
+
+bool Upkeep::trim(const RetentionLimits& limits) {
+  if (!above(limits) || removing()) return false;
+  if (database_.integer(joined({"SELECT EXISTS(SELECT 1 FROM run WHERE ", kEnded, ")"})) != 0) return false;
+  auto query = database_.cached("SELECT run,block FROM block ORDER BY written,run,block LIMIT 1");
+  if (!query.step()) return false;
+  const RunId run = query.integer(0);
+  const std::int64_t block = query.integer(1);
+  query.reset();
+  Transaction transaction(database_);
+  expire_block(run, block);
+  transaction.commit();
+  return true;
 }
 
 bool Upkeep::removing() const { return database_.integer("SELECT count(*) FROM run WHERE deleted=1") > 0; }

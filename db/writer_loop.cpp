@@ -180,14 +180,9 @@ bool LogWriter::State::upkeep(bool removed) {
     if (due) {
       upkeep_due_ = now_steady + 1s;
       more_to_remove_ = true;
-      if (retention_changed.exchange(false) || now_steady >= retain_due_) {
+      if (retention_changed.exchange(false) || now_steady >= retain_due_ || upkeep_->above(limits())) {
         retain_due_ = now_steady + 30s;
-        RetentionLimits limits;
-        {
-          const std::scoped_lock guard(health_mutex);
-          limits = {keep_days, keep_gib};
-        }
-        upkeep_->retain(limits, now());
+        upkeep_->retain(limits(), now());
         upkeep_->forget_old_keys(now());
       }
     }
@@ -200,11 +195,16 @@ bool LogWriter::State::upkeep(bool removed) {
   }
 }
 
+RetentionLimits LogWriter::State::limits() {
+  const std::scoped_lock guard(health_mutex);
+  return {keep_days, keep_gib};
+}
+
 bool LogWriter::State::upkeep_step(bool due) {
   const auto until = Steady::now() + 20ms;
   bool expiring = due;
   while ((expiring || more_to_remove_) && Steady::now() < until) {
-    expiring = expiring && upkeep_->expire_samples(now());
+    expiring = expiring && (upkeep_->expire_samples(now()) || upkeep_->trim(limits()));
     if (!more_to_remove_) continue;
     const bool removing = upkeep_->removing();
     more_to_remove_ = upkeep_->purge();

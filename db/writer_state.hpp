@@ -101,6 +101,7 @@ struct LogWriter::State {
   void set_trouble(const std::string& sentence);
   bool upkeep(bool removed);  ///< true: there is more to do soon
   bool upkeep_step(bool due);
+  RetentionLimits limits();
 
   Steady::time_point tail_due_, upkeep_due_, retain_due_, last_commit_, stop_deadline_;
   bool more_to_remove_ = true;

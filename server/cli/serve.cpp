@@ -19,7 +19,7 @@ struct ServeCommand {
   ServerOptions server;
   std::string web, token_file;
   bool no_demo = false;
-  double keep_days = -1, keep_gib = -1;
+  double keep_days = -1, keep_gib = 20;
 };
 
 bool is_loopback(const std::string& host) {
@@ -114,7 +114,7 @@ void add_serve(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   sub->add_flag("--no-demo", command->no_demo, "start no demo run");
   sub->add_option("--keep-days", command->keep_days, "remove finished runs older than this");
-  sub->add_option("--keep-gib", command->keep_gib, "remove the oldest finished runs above this size");
+  sub->add_option("--keep-gib", command->keep_gib, "remove the oldest finished runs, then the oldest samples, above this size (20)");
   sub->add_option("--max-runs", command->server.runs.max_runs, "runs at once, 4 without; more wait")
       ->check(CLI::Range(1, 256));
   sub->callback([command, &action] { action = [command] { return serve(*command); }; });
