@@ -195,23 +195,27 @@ std::string Adversary::free_id() const {
   }
 }
 
-void Adversary::retune(const std::string& id, const std::string& param, const Json& value) {
+void Adversary::retune(const std::string& id, const Json& values) {
   const std::string pointer = "/adversary/" + id;
   Entry* entry = find(id);
   if (entry == nullptr) throw InputError(pointer, fmt::format("there is no attack \"{}\" in this run", id));
-  if (param == "enabled") {
-    if (!value.is_boolean()) throw InputError(pointer + "/enabled", fmt::format("enabled is {}; expected true or false", quoted(value)));
-    entry->enabled = value.get<bool>();
-    return;
-  }
-  const Param* declared = Registry<AttackMake>::find(entry->type)->params.find(param);
-  if (declared == nullptr || !declared->live) {
-    throw InputError(pointer + "/params/" + param, fmt::format("\"{}\" cannot be changed while the run goes on", param));
-  }
+  bool enabled = entry->enabled;
   Json params = entry->params;
-  params[param] = value;
+  for (const auto& [name, value] : values.items()) {
+    if (name == "enabled") {
+      if (!value.is_boolean()) throw InputError(pointer + "/enabled", fmt::format("enabled is {}; expected true or false", quoted(value)));
+      enabled = value.get<bool>();
+      continue;
+    }
+    const Param* declared = Registry<AttackMake>::find(entry->type)->params.find(name);
+    if (declared == nullptr || !declared->live) {
+      throw InputError(pointer + "/params/" + name, fmt::format("\"{}\" cannot be changed while the run goes on", name));
+    }
+    params[name] = value;
+  }
   entry->attack = make(*entry, params, pointer);
   entry->params = std::move(params);
+  entry->enabled = enabled;
 }
 
 void Adversary::start(const Json& attack, std::int64_t k) {

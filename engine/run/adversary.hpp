@@ -32,7 +32,7 @@ class Adversary {
   std::vector<LinkRates> rates(const Graph& graph) const;
 
   /// Changes a live parameter, or "enabled". Throws InputError with pointers under /adversary/<id>.
-  void retune(const std::string& id, const std::string& param, const Json& value);
+  void retune(const std::string& id, const Json& values);
   /// A hand's attack {"id","type","on","from","to","params"}. Throws InputError with pointers under /attack.
   void start(const Json& attack, std::int64_t k);
   /// Throws InputError at /end_attack where no attack of that name goes on.
@@ -79,18 +79,6 @@ auto under(const std::string& prefix, Make&& make) {
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) problem.pointer = prefix + (problem.pointer == "/" ? "" : problem.pointer);
-    throw InputError(std::move(problems));
-  }
-}
-
-/// Runs `change` and puts `pointer` in place of those of an InputError it throws: for one value given by its path.
-template <class Change>
-void at_path(const std::string& pointer, Change&& change) {
-  try {
-    change();
-  } catch (const InputError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) problem.pointer = pointer;
     throw InputError(std::move(problems));
   }
 }

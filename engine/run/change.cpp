@@ -1,6 +1,8 @@
 /// Live commands: what may be changed while a run goes on.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/core/describe.hpp"
 #include "engine/run/state.hpp"
 #include "engine/scenario/document.hpp"
@@ -21,9 +23,24 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
-[[noreturn]] void not_live(const std::string& path) {
-  throw InputError("/params/" + path, fmt::format("\"{}\" cannot be changed while the run goes on", path),
+[[noreturn]] void not_live(const std::string& path, const std::string& pointer) {
+  throw InputError(pointer, fmt::format("\"{}\" cannot be changed while the run goes on", path),
                    "lanes.<lane>.params.<live parameter>, adversary.<attack>.params.<live parameter>, adversary.<attack>.enabled, network.graph");
+}
+
+/// Runs `change` and gives the problems it throws the path of the value they speak of, else that of the group's first.
+template <class Change>
+void at_paths(const ParamGroup& group, Change&& change) {
+  try {
+    change();
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      const std::string name = problem.pointer.substr(problem.pointer.rfind('/') + 1);
+      problem.pointer = group.paths.contains(name) ? group.paths[name].get<std::string>() : group.paths.front().get<std::string>();
+    }
+    throw InputError(std::move(problems));
+  }
 }
 
 /// A hand's attack, checked like one of the document; without "from" it begins at once.
@@ -76,34 +93,45 @@ void Run::State::change(const Command& command, Sink* sink) {
   if (sink != nullptr) sink->mark(mark);
 }
 
+/// Values for one lane or one attack are judged together, so that their order in the command does not matter.
 void Run::State::set_params(const Json& params) {
   if (!params.is_object() || params.empty()) throw InputError("/params", "expected an object of paths and values, such as {\"lanes.consensus.params.tau\":0.02}");
-  for (const auto& [path, value] : params.items()) set_param(path, value);
+  std::vector<ParamGroup> groups;
+  for (const auto& [path, value] : params.items()) {
+    if (path == "network.graph") {
+      set_graph(value);
+      continue;
+    }
+    const std::vector<std::string> parts = split(path);
+    const bool attack = parts[0] == "adversary" && ((parts.size() == 4 && parts[2] == "params") || (parts.size() == 3 && parts[2] == "enabled"));
+    const bool lane = parts[0] == "lanes" && parts.size() == 4 && parts[2] == "params";
+    if (!attack && !lane) not_live(path, "/params/" + path);
+    const auto same = [&](const ParamGroup& group) { return group.attack == attack && group.id == parts[1]; };
+    auto group = std::find_if(groups.begin(), groups.end(), same);
+    if (group == groups.end()) group = groups.insert(groups.end(), {attack, parts[1], Json::object(), Json::object()});
+    group->values[parts.back()] = value;
+    group->paths[parts.back()] = "/params/" + path;
+  }
+  for (const ParamGroup& group : groups) {
+    at_paths(group, [&] { group.attack ? adversary.retune(group.id, group.values) : retune_lane(group); });
+  }
+  rewire_lanes();
 }
 
-void Run::State::set_param(const std::string& path, const Json& value) {
-  const std::vector<std::string> parts = split(path);
-  if (path == "network.graph") return set_graph(value);
-  if (parts.size() == 4 && parts[0] == "lanes" && parts[2] == "params") {
-    for (Lane& lane : lanes) {
-      if (lane.id() != parts[1]) continue;
-      const auto* entry = Registry<MethodMake>::find(lane.method_id());
-      const Param* declared = entry == nullptr ? nullptr : entry->params.find(parts[3]);
-      if (declared == nullptr || !declared->live) not_live(path);
-      if (const auto problem = entry->params.check(*declared, value, "/params/" + path)) throw InputError({*problem});
-      Json changed = lane.params();
-      changed[parts[3]] = value;
-      at_path("/params/" + path, [&] { lane.method().retune(Params(changed)); });
-      lane.params() = std::move(changed);
-      return;
-    }
-    throw InputError("/params/" + path, fmt::format("this run has no lane \"{}\"", parts[1]));
+/// Throws with pointers that end in a parameter's name.
+void Run::State::retune_lane(const ParamGroup& group) {
+  const auto lane = std::find_if(lanes.begin(), lanes.end(), [&](const Lane& other) { return other.id() == group.id; });
+  if (lane == lanes.end()) throw InputError("", fmt::format("this run has no lane \"{}\"", group.id));
+  const auto* entry = Registry<MethodMake>::find(lane->method_id());
+  Json changed = lane->params();
+  for (const auto& [name, value] : group.values.items()) {
+    const Param* declared = entry == nullptr ? nullptr : entry->params.find(name);
+    if (declared == nullptr || !declared->live) not_live(fmt::format("lanes.{}.params.{}", group.id, name), "/" + name);
+    if (const auto problem = entry->params.check(*declared, value, "/" + name)) throw InputError({*problem});
+    changed[name] = value;
   }
-  const bool attack = parts.size() == 4 && parts[0] == "adversary" && parts[2] == "params";
-  const bool enabled = parts.size() == 3 && parts[0] == "adversary" && parts[2] == "enabled";
-  if (!attack && !enabled) not_live(path);
-  at_path("/params/" + path, [&] { adversary.retune(parts[1], parts.back(), value); });
-  rewire_lanes();
+  lane->method().retune(Params(changed));
+  lane->params() = std::move(changed);
 }
 
 void Run::State::set_graph(const Json& value) {

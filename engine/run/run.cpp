@@ -1,5 +1,6 @@
 #include "engine/run/run.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/run/state.hpp"
@@ -49,7 +50,11 @@ Command Run::prepare(const Json& body) const {
   return command;
 }
 
-void Run::apply(const Command& command) { state_->pending.push_back(command); }
+void Run::apply(const Command& command) {
+  auto& pending = state_->pending;
+  const auto later = [](const Command& one, const Command& other) { return one.k < other.k; };
+  pending.insert(std::upper_bound(pending.begin(), pending.end(), command, later), command);
+}
 
 std::vector<MetricValue> Run::metrics() const {
   std::vector<MetricValue> metrics;
@@ -80,7 +85,12 @@ Json Run::design() const {
   Json design = Json::object();
   for (const Lane& lane : state_->lanes) {
     Json mine = lane.method().design();
-    mine.update(lane.score().bounds(state_->sensors.front()->size()));
+    int channels = state_->sensors.front()->size();
+    if (lane.outputs().front() == "fused") {  // one innovation of every sensor
+      channels = 0;
+      for (const auto& sensor : state_->sensors) channels += sensor->size();
+    }
+    mine.update(lane.score().bounds(channels));
     design[lane.id()] = std::move(mine);
   }
   return design;

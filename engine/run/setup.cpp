@@ -1,6 +1,7 @@
 /// From a document, a seed and perhaps a trace to a run that can be stepped.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -79,6 +80,7 @@ Graph read_network(const Json& network, const std::vector<std::string>& nodes, c
 
 Run::State::State(const Scenario& given, RunOptions options)
     : scenario(given), seed(options.seed), trace(std::move(options.trace)), pending(std::move(options.commands)) {
+  std::stable_sort(pending.begin(), pending.end(), [](const Command& one, const Command& other) { return one.k < other.k; });
   const Json& document = scenario.document();
   dt = document.at("time").at("dt").get<double>();
   if (!document["time"]["steps"].is_null()) last_tick = document["time"]["steps"].get<std::int64_t>();

@@ -30,6 +30,14 @@ struct WorldSlots {
   std::vector<int> link;    ///< state, then injected components, then strength; one a base link
 };
 
+/// Live values of one command for one lane or attack.
+struct ParamGroup {
+  bool attack = false;
+  std::string id;
+  Json values;  ///< by parameter; of an attack also "enabled"
+  Json paths;   ///< of the values, as pointers into the command
+};
+
 struct Run::State {
   State(const Scenario& scenario, RunOptions options);
 
@@ -41,7 +49,7 @@ struct Run::State {
   std::shared_ptr<const Trace> trace;
   double dt = 1;
   std::optional<std::int64_t> last_tick;
-  std::vector<Command> pending;  ///< in the order they were given; applied before their tick
+  std::vector<Command> pending;  ///< by tick, then in the order they were given; applied before their tick
 
   std::shared_ptr<const Plant> plant;
   std::vector<std::string> nodes;
@@ -89,7 +97,7 @@ struct Run::State {
   void publish_world();
 
   void set_params(const Json& params);
-  void set_param(const std::string& path, const Json& value);
+  void retune_lane(const ParamGroup& group);
   void set_graph(const Json& value);
   void rewire_lanes();
 };

@@ -88,15 +88,17 @@ void Filter<N, M>::judge(int index, FaultReport& report) {
   if (node.feasible28 && node.feasible29) return;
   if (first_infeasible_ == 0) first_infeasible_ = tick_;
   const bool strict = settings_.constants.guard == Guard::strict;
-  const auto tell = [&](const char* code, const char* condition, double eigenvalue, double limit) {
+  const auto tell = [&](const char* code, const char* condition, double least, double largest, double limit) {
     std::string* text = strict ? report.stop(index, code) : report.fault(index, code);
-    if (text != nullptr) {
-      *text = fmt::format("condition {} fails at node {}, step {}: largest eigenvalue {:.6g}, limit {:.6g}", condition,
-                          ids_[static_cast<std::size_t>(index)], tick_, eigenvalue, limit);
-    }
+    if (text == nullptr) return;
+    *text = fmt::format("condition {} fails at node {}, step {}: ", condition, ids_[static_cast<std::size_t>(index)], tick_);
+    *text += largest >= limit ? fmt::format("largest eigenvalue {:.6g}, limit {:.6g}", largest, limit)
+                              : fmt::format("smallest eigenvalue {:.6g}, which must be above 0", least);
   };
-  if (!node.feasible28) tell("infeasible_28", "(28)", node.phi_values[node.phi_values.size() - 1], settings_.constants.limit28());
-  if (!node.feasible29) tell("infeasible_29", "(29)", node.lambda_predicted, settings_.constants.limit29());
+  const auto last = node.phi_values.size() - 1;
+  if (!node.feasible28) tell("infeasible_28", "(28)", node.phi_values[0], node.phi_values[last], settings_.constants.limit28());
+  if (strict && !node.feasible28) return;  // without a guard (29) fails in its wake
+  if (!node.feasible29) tell("infeasible_29", "(29)", node.least_predicted, node.lambda_predicted, settings_.constants.limit29());
 }
 
 template <int N, int M>

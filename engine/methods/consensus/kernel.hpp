@@ -50,6 +50,7 @@ struct Node {
   double beta = 0;    ///< as used here (guard adapt changes it)
   bool feasible28 = true, feasible29 = true;
   double lambda_predicted = 0;  ///< largest eigenvalue of Phi(k+1|k) before the guard
+  double least_predicted = 0;   ///< smallest
 
   VecM innovation;
   MatM innovation_bound;  ///< upper bound of the innovation's covariance: H M H' + V V'/beta + R
@@ -131,6 +132,7 @@ bool predict_bound(Node<N, M>& node, const typename Node<N, M>::MatN& F, const C
   VecN mu = eigen.eigenvalues();
   const MatN& W = eigen.eigenvectors();
   node.lambda_predicted = mu[last];
+  node.least_predicted = mu[0];
   node.feasible29 = mu[0] > 0 && mu[last] < constants.limit29();
   node.beta = constants.beta;
   if (constants.guard == Guard::adapt) node.beta = std::min(node.beta, constants.rho / mu[last]);
