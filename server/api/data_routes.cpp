@@ -17,11 +17,20 @@ namespace {
 constexpr std::int64_t kLastTick = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr std::size_t kMostNumbers = 4'000'000;  // of one JSON answer; CSV has no such limit
 
+/// A run that has just begun may not have its signals in the file yet: what was handed to the log is waited for once.
+std::vector<Signal> catalogue_of(const Services& services, RunId run) {
+  std::vector<Signal> catalogue = services.reader.signals(run);
+  if (!catalogue.empty()) return catalogue;
+  services.log.flush();
+  return services.reader.signals(run);
+}
+
 void signals(const Services& services, const HttpRequest& request, HttpResponse& response) {
   const RunRow row = run_row(request, services);
+  const std::vector<Signal> catalogue = catalogue_of(services, row.id);
   const std::vector<int> logged = services.reader.logged_signals(row.id);
   Json items = Json::array();
-  for (const Signal& signal : services.reader.signals(row.id)) {
+  for (const Signal& signal : catalogue) {
     Json item = to_json(signal);
     item["logged"] = std::binary_search(logged.begin(), logged.end(), signal.id);
     items.push_back(std::move(item));
@@ -61,7 +70,7 @@ Json window_json(const SampleWindow& window, const std::vector<Signal>& catalogu
 
 void samples(const Services& services, const HttpRequest& request, HttpResponse& response) {
   const RunRow row = run_row(request, services);
-  const std::vector<Signal> catalogue = services.reader.signals(row.id);
+  const std::vector<Signal> catalogue = catalogue_of(services, row.id);
   const std::vector<int> picked = pick_signals(request.query_value("signals"), catalogue);
   const std::int64_t from = request.query_int("from", 0, 0, kLastTick);
   const std::int64_t to = request.query_int("to", kLastTick, 0, kLastTick);
