@@ -23,7 +23,8 @@ class Upkeep {
   /// Marks runs for removal. At most one for the file's size; call again when purge() is done.
   void retain(const RetentionLimits& limits, WallTime now);
   bool above(const RetentionLimits& limits) const;  ///< the file is larger than it may be
-  /// Where the file is above its size and no ended run is left to remove, deletes the oldest block of a run that goes on. True: it did.
+  /// Where the file is above its size and no ended run is left to remove, deletes the oldest block of a run that goes
+  /// on. True: it did.
   bool trim(const RetentionLimits& limits);
   /// One small step of removing what is marked, or of giving pages back. True: there is more.
   bool purge();

@@ -19,7 +19,8 @@ enum class LinkState : std::uint8_t { clean = 0, dos = 1, fdi = 2, replay = 3 };
 struct LinkEffects {
   std::vector<LinkState> state;  ///< one a link
   Eigen::MatrixXd injected;      ///< message size x links; zero where nothing is injected
-  Eigen::VectorXd strength;      ///< one a link: the attack signal drawn (a DoS has one too), NaN where the attack draws none
+  Eigen::VectorXd
+      strength;  ///< one a link: the attack signal drawn (a DoS has one too), NaN where the attack draws none
 
   void resize(int message, int links);
   void clear();
@@ -55,11 +56,11 @@ struct LinkRates {
 };
 
 struct AttackContext {
-  std::string id;        ///< names its draws
+  std::string id;  ///< names its draws
   std::uint64_t seed = 0;
-  int message = 0;             ///< size of what a link carries: the plant's states
-  bool on_links = true;        ///< it acts on some link
-  std::vector<int> readings;   ///< sizes of what it acts on at sensors: a whole reading's channels, or 1
+  int message = 0;            ///< size of what a link carries: the plant's states
+  bool on_links = true;       ///< it acts on some link
+  std::vector<int> readings;  ///< sizes of what it acts on at sensors: a whole reading's channels, or 1
 };
 
 enum class ChannelKind { link, sensor };
@@ -70,14 +71,16 @@ class Attack {
   virtual ~Attack() = default;
   virtual std::unique_ptr<Attack> clone() const = 0;
   virtual bool acts_on(ChannelKind kind) const { return kind == ChannelKind::link; }
-  /// Acts at tick k on the given links (indices); `effects` holds what earlier attacks of the document did. No allocation.
+  /// Acts at tick k on the given links (indices); `effects` holds what earlier attacks of the document did. No
+  /// allocation.
   virtual void act(std::int64_t /*k*/, std::span<const int> /*links*/, LinkEffects& /*effects*/) const {}
   /// The same on sensors.
   virtual void tamper(std::int64_t /*k*/, std::span<const SensorPlace> /*places*/, SensorEffects& /*effects*/) const {}
   virtual LinkRates rates() const { return {}; }
 };
 
-/// Throws InputError (pointers relative to the params) for what the table cannot check: sums of probabilities, norms, sizes.
+/// Throws InputError (pointers relative to the params) for what the table cannot check: sums of probabilities, norms,
+/// sizes.
 using AttackMake = std::unique_ptr<Attack> (*)(const Params& params, const AttackContext& context);
 
 }  // namespace vigil

@@ -38,7 +38,8 @@ class Bias final : public Attack {
  private:
   void check_size(int expected, const char* what) const {
     if (vector_.size() == expected) return;
-    throw InputError("/vector", "vector has " + std::to_string(vector_.size()) + " entries; " + what + " has " + std::to_string(expected));
+    throw InputError("/vector", "vector has " + std::to_string(vector_.size()) + " entries; " + what + " has " +
+                                    std::to_string(expected));
   }
 
   double probability_;
@@ -51,12 +52,23 @@ const Registration<AttackMake> registration({
     {"Constant false data", "恒定偏差注入"},
     "seed 000, (5)-(6), gamma alone with a constant vector",
     ParamTable({
-        {.name = "vector", .type = ParamType::vector, .fallback = Json::array({15.0, 15.0, 0.0}), .live = true, .symbol = "ξ",
+        {.name = "vector",
+         .type = ParamType::vector,
+         .fallback = Json::array({15.0, 15.0, 0.0}),
+         .live = true,
+         .symbol = "ξ",
          .meaning = {"What is added to the message or the reading", "加到消息或读数上的向量"}},
-        {.name = "probability", .fallback = 1.0, .minimum = 0, .maximum = 1, .live = true, .symbol = "γ̄",
+        {.name = "probability",
+         .fallback = 1.0,
+         .minimum = 0,
+         .maximum = 1,
+         .live = true,
+         .symbol = "γ̄",
          .meaning = {"Probability that the channel is falsified in a step", "每步信道被注入虚假数据的概率"}},
     }),
-    [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> { return std::make_unique<Bias>(params, context); },
+    [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
+      return std::make_unique<Bias>(params, context);
+    },
 });
 
 }  // namespace

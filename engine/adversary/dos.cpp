@@ -30,10 +30,17 @@ const Registration<AttackMake> registration({
     {"Jamming", "拒绝服务"},
     "seed 000, (5)-(6), phi alone",
     ParamTable({
-        {.name = "probability", .fallback = 1.0, .minimum = 0, .maximum = 1, .live = true, .symbol = "φ̄",
+        {.name = "probability",
+         .fallback = 1.0,
+         .minimum = 0,
+         .maximum = 1,
+         .live = true,
+         .symbol = "φ̄",
          .meaning = {"Probability that the channel is jammed in a step", "每步信道被阻断的概率"}},
     }),
-    [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> { return std::make_unique<Dos>(params, context); },
+    [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
+      return std::make_unique<Dos>(params, context);
+    },
 });
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// Declared parameters: one table a method, attack, plant or sensor. From it come parsing, range errors, the JSON Schema, the
-/// web form and the documentation.
+/// Declared parameters: one table a method, attack, plant or sensor. From it come parsing, range errors, the JSON
+/// Schema, the web form and the documentation.
 #pragma once
 
 #include <Eigen/Core>
@@ -59,20 +59,22 @@ class ParamTable {
   const std::vector<Param>& all() const { return params_; }
   const Param* find(std::string_view name) const;
 
-  /// Checks an object of given values and fills in the defaults; problems found are appended with pointers under `pointer`
-  /// (unknown key with the nearest valid one, wrong type, out of range, non-finite). The result is usable only if none were.
+  /// Checks an object of given values and fills in the defaults; problems found are appended with pointers under
+  /// `pointer` (unknown key with the nearest valid one, wrong type, out of range, non-finite). The result is usable
+  /// only if none were.
   Json complete(const Json& given, const std::string& pointer, std::vector<Problem>& problems) const;
   /// The same for one value; the problem or nothing.
   std::optional<Problem> check(const Param& param, const Json& value, const std::string& pointer) const;
 
-  Json schema() const;  ///< JSON Schema object with "properties", additionalProperties false
-  Json to_json() const; ///< [{name,type,unit,default,minimum,maximum,choices,nullable,live,symbol,meaning{en,zh}}]
+  Json schema() const;   ///< JSON Schema object with "properties", additionalProperties false
+  Json to_json() const;  ///< [{name,type,unit,default,minimum,maximum,choices,nullable,live,symbol,meaning{en,zh}}]
 
  private:
   std::vector<Param> params_;
 };
 
-/// Completed values of a table, read by name. Reading a name that was not declared is a programming error (throws std::logic_error).
+/// Completed values of a table, read by name. Reading a name that was not declared is a programming error (throws
+/// std::logic_error).
 class Params {
  public:
   Params() = default;
@@ -84,7 +86,8 @@ class Params {
   bool boolean(std::string_view name) const;
   std::string text(std::string_view name) const;
   Eigen::VectorXd vector(std::string_view name) const;
-  /// A square matrix of size n from [[..]], a diagonal or a number. Throws InputError (pointer "") when the sizes do not fit.
+  /// A square matrix of size n from [[..]], a diagonal or a number. Throws InputError (pointer "") when the sizes do
+  /// not fit.
   Eigen::MatrixXd square(std::string_view name, int n) const;
   const Json& values() const { return values_; }
 

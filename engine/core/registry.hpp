@@ -1,5 +1,6 @@
 /// What can be named in a document. A method, attack, plant or sensor is one file that ends with one line:
-///   static const Registration<MethodFactory> registration({"consensus_ekf", {...title...}, "seed 000", table(), make});
+///   static const Registration<MethodFactory> registration({"consensus_ekf", {...title...}, "seed 000", table(),
+///   make});
 #pragma once
 
 #include <string>

@@ -16,10 +16,13 @@ void check_covariance(const Eigen::MatrixXd& matrix, const std::string& pointer,
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
   const double smallest = eigen.eigenvalues()[0];
   if (kind == Definiteness::definite && smallest <= 0) {
-    throw InputError(pointer, fmt::format("the smallest eigenvalue is {:.6g}; the matrix must be positive definite", smallest), "> 0");
+    throw InputError(pointer,
+                     fmt::format("the smallest eigenvalue is {:.6g}; the matrix must be positive definite", smallest),
+                     "> 0");
   }
   if (smallest < -1e-12 * size) {
-    throw InputError(pointer, fmt::format("the smallest eigenvalue is {:.6g}; a covariance has none below zero", smallest), ">= 0");
+    throw InputError(
+        pointer, fmt::format("the smallest eigenvalue is {:.6g}; a covariance has none below zero", smallest), ">= 0");
   }
 }
 

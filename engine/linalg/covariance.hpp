@@ -10,8 +10,8 @@ namespace vigil {
 
 enum class Definiteness { semidefinite, definite };
 
-/// Reads an n x n covariance from [[..]], a diagonal or a number, symmetrised. Throws InputError at `pointer` where it is not symmetric (to
-/// 1e-9 relative) or not positive (semi)definite.
+/// Reads an n x n covariance from [[..]], a diagonal or a number, symmetrised. Throws InputError at `pointer` where it
+/// is not symmetric (to 1e-9 relative) or not positive (semi)definite.
 Eigen::MatrixXd read_covariance(const Json& value, int n, const std::string& pointer, Definiteness kind);
 /// Throws as read_covariance does; for matrices already read.
 void check_covariance(const Eigen::MatrixXd& matrix, const std::string& pointer, Definiteness kind);

@@ -1,4 +1,5 @@
-/// One extended Kalman filter over every sensor, which uses no channel: the attack-free lower bound. Specification of seed 000, section 9.
+/// One extended Kalman filter over every sensor, which uses no channel: the attack-free lower bound. Specification of
+/// seed 000, section 9.
 #include <cmath>
 
 #include "engine/linalg/chi_square.hpp"
@@ -11,7 +12,10 @@ namespace {
 class CentralizedEkf final : public Method {
  public:
   CentralizedEkf(const Params& params, const Knowledge& knowledge)
-      : plant_(knowledge.plant), sensors_(knowledge.sensors), Q_(knowledge.Q), state_{knowledge.estimates.col(0), knowledge.P0} {
+      : plant_(knowledge.plant),
+        sensors_(knowledge.sensors),
+        Q_(knowledge.Q),
+        state_{knowledge.estimates.col(0), knowledge.P0} {
     int channels = 0;
     for (const auto& sensor : sensors_) channels += sensor->size();
     whitened_.resize(channels);
@@ -23,10 +27,12 @@ class CentralizedEkf final : public Method {
 
   void declare(SignalScope& scope) override { used_slot_ = scope.add(0, "readings_used", "", SignalKind::scalar); }
 
-  void predict(const Eigen::VectorXd& input, FaultReport& /*report*/) override { kalman_predict(state_, *plant_, input, Q_); }
+  void predict(const Eigen::VectorXd& input, FaultReport& /*report*/) override {
+    kalman_predict(state_, *plant_, input, Q_);
+  }
 
-  /// The stacked update, one sensor after another: R is block-diagonal, so conditioning on each in turn at the same linearisation point
-  /// is the same algebra with small matrices.
+  /// The stacked update, one sensor after another: R is block-diagonal, so conditioning on each in turn at the same
+  /// linearisation point is the same algebra with small matrices.
   void update(const Readings& readings, std::span<const Delivery> /*inbox*/, FaultReport& report) override {
     const Gaussian prior = state_;
     whitened_size_ = 0;
@@ -65,7 +71,8 @@ class CentralizedEkf final : public Method {
     if (gate_ <= 0) return true;
     const auto size = static_cast<std::size_t>(innovation.r.size());
     if (limit_gate_ != gate_) {
-      for (std::size_t m = 1; m < std::size(limits_); ++m) limits_[m] = chi_square_quantile(gate_, static_cast<double>(m));
+      for (std::size_t m = 1; m < std::size(limits_); ++m)
+        limits_[m] = chi_square_quantile(gate_, static_cast<double>(m));
       limit_gate_ = gate_;
     }
     return mahalanobis(innovation, P) <= limits_[size];
@@ -96,8 +103,15 @@ const Registration<MethodMake> registration({
     {"One filter over all sensors", "集中式滤波"},
     "specification of seed 000, section 9",
     ParamTable({
-        {.name = "gate", .minimum = 0, .maximum = 1, .exclusive_minimum = true, .exclusive_maximum = true, .nullable = true, .live = true,
-         .meaning = {"A sensor whose innovation lies outside this share of its chi-square law is left out; none given: all are used",
+        {.name = "gate",
+         .minimum = 0,
+         .maximum = 1,
+         .exclusive_minimum = true,
+         .exclusive_maximum = true,
+         .nullable = true,
+         .live = true,
+         .meaning = {"A sensor whose innovation lies outside this share of its chi-square law is left out; none given: "
+                     "all are used",
                      "新息落在卡方分布该概率之外的传感器不使用；未给出时全部使用"}},
     }),
     [](const Params& params, const Knowledge& knowledge) -> std::unique_ptr<Method> {

@@ -20,7 +20,9 @@ class DeadReckoning final : public Method {
   }
   void update(const Readings& /*readings*/, std::span<const Delivery> /*inbox*/, FaultReport& /*report*/) override {}
 
-  Belief belief(int /*output*/) const override { return {.mean = state_.mean.data(), .covariance = state_.covariance.data()}; }
+  Belief belief(int /*output*/) const override {
+    return {.mean = state_.mean.data(), .covariance = state_.covariance.data()};
+  }
 
   void retune(const Params& /*params*/) override {}
   void rewire(const Graph& /*graph*/, const std::vector<LinkRates>& /*rates*/) override {}
@@ -36,7 +38,9 @@ const Registration<MethodMake> registration({
     {"Dead reckoning", "航位推算"},
     "recorded robots",
     ParamTable(),
-    [](const Params&, const Knowledge& knowledge) -> std::unique_ptr<Method> { return std::make_unique<DeadReckoning>(knowledge); },
+    [](const Params&, const Knowledge& knowledge) -> std::unique_ptr<Method> {
+      return std::make_unique<DeadReckoning>(knowledge);
+    },
 });
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// The extended Kalman filter as free functions: what the baselines of every family share. Bounded matrices, no allocation.
+/// The extended Kalman filter as free functions: what the baselines of every family share. Bounded matrices, no
+/// allocation.
 #pragma once
 
 #include <Eigen/Dense>
@@ -15,7 +16,8 @@ struct Gaussian {
   BoundedMatrix covariance;
 };
 
-/// One sensor's innovation at a given point: r = z - h(x) (angles wrapped), its Jacobian and covariance. A channel that is NaN is left out.
+/// One sensor's innovation at a given point: r = z - h(x) (angles wrapped), its Jacobian and covariance. A channel that
+/// is NaN is left out.
 struct Innovation {
   BoundedVector r;
   BoundedMatrix H;

@@ -1,4 +1,5 @@
-/// One ordinary extended Kalman filter a node: no consensus, no inflation, no guard. Specification of seed 000, section 9, `isolated`.
+/// One ordinary extended Kalman filter a node: no consensus, no inflation, no guard. Specification of seed 000, section
+/// 9, `isolated`.
 #include "engine/methods/kalman.hpp"
 #include "engine/methods/method.hpp"
 
@@ -9,7 +10,8 @@ class LocalEkf final : public Method {
  public:
   explicit LocalEkf(const Knowledge& knowledge)
       : plant_(knowledge.plant), sensors_(knowledge.sensors), ids_(knowledge.nodes), Q_(knowledge.Q) {
-    for (Eigen::Index i = 0; i < knowledge.estimates.cols(); ++i) states_.push_back({knowledge.estimates.col(i), knowledge.P0});
+    for (Eigen::Index i = 0; i < knowledge.estimates.cols(); ++i)
+      states_.push_back({knowledge.estimates.col(i), knowledge.P0});
     innovations_.resize(states_.size());
     covariances_.resize(states_.size());
   }
@@ -27,7 +29,8 @@ class LocalEkf final : public Method {
       if (innovations_[i].empty()) continue;
       covariances_[i] = innovation_covariance(innovations_[i], states_[i].covariance);
       if (kalman_update(states_[i], innovations_[i])) continue;
-      if (std::string* text = report.stop(static_cast<int>(i), "diverged")) *text = "node " + ids_[i] + ": the filter is no longer finite";
+      if (std::string* text = report.stop(static_cast<int>(i), "diverged"))
+        *text = "node " + ids_[i] + ": the filter is no longer finite";
       return;
     }
   }
@@ -61,7 +64,9 @@ const Registration<MethodMake> registration({
     {"A filter at each node alone", "各节点独立滤波"},
     "specification of seed 000, section 9",
     ParamTable(),
-    [](const Params&, const Knowledge& knowledge) -> std::unique_ptr<Method> { return std::make_unique<LocalEkf>(knowledge); },
+    [](const Params&, const Knowledge& knowledge) -> std::unique_ptr<Method> {
+      return std::make_unique<LocalEkf>(knowledge);
+    },
 });
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// A method: what a lane runs. It sees readings, messages and declared knowledge, never the truth, an attack or the scenario.
+/// A method: what a lane runs. It sees readings, messages and declared knowledge, never the truth, an attack or the
+/// scenario.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,15 +26,15 @@ struct Knowledge {
   std::vector<std::shared_ptr<const Sensor>> sensors;  ///< one a node
   std::vector<std::string> nodes;                      ///< their ids
   Graph graph;
-  Eigen::MatrixXd Q;          ///< process noise, states x states, positive semidefinite
-  Eigen::MatrixXd P0;         ///< covariance of the initial estimates
-  Eigen::MatrixXd estimates;  ///< initial estimates, states x nodes
+  Eigen::MatrixXd Q;             ///< process noise, states x states, positive semidefinite
+  Eigen::MatrixXd P0;            ///< covariance of the initial estimates
+  Eigen::MatrixXd estimates;     ///< initial estimates, states x nodes
   std::vector<LinkRates> rates;  ///< one a link: the adversary's published statistics (zero for a lane that is spared)
 };
 
 /// What a node received on one link in one exchange round.
 struct Delivery {
-  bool lost = false;     ///< nothing came (the receiver sees that: seed 000, "the detector recognises attacks correctly")
+  bool lost = false;  ///< nothing came (the receiver sees that: seed 000, "the detector recognises attacks correctly")
   bool flagged = false;  ///< falsified. An oracle: only methods that declare it as an input look at it
   Eigen::VectorXd payload;
 };
@@ -43,9 +44,9 @@ using Readings = std::vector<Eigen::VectorXd>;
 
 /// What a method believes at one output: views into its own memory, valid until its next call. Null: it has none.
 struct Belief {
-  const double* mean = nullptr;                   ///< states
-  const double* covariance = nullptr;             ///< states x states, column-major: a covariance or an upper bound of it
-  const double* innovation = nullptr;             ///< innovation_size values; null in a tick without a reading
+  const double* mean = nullptr;        ///< states
+  const double* covariance = nullptr;  ///< states x states, column-major: a covariance or an upper bound of it
+  const double* innovation = nullptr;  ///< innovation_size values; null in a tick without a reading
   const double* innovation_covariance = nullptr;  ///< column-major
   int innovation_size = 0;
 };
@@ -54,8 +55,8 @@ struct Belief {
 class FaultReport {
  public:
   virtual ~FaultReport() = default;
-  /// node: output index, -1 for the whole lane; code: a string literal. Returns where to write one sentence the first time this node
-  /// reports this code, null afterwards (so that a fault at every tick costs nothing).
+  /// node: output index, -1 for the whole lane; code: a string literal. Returns where to write one sentence the first
+  /// time this node reports this code, null afterwards (so that a fault at every tick costs nothing).
   virtual std::string* fault(int node, const char* code) = 0;
   /// The same, and the lane stops here: its signals are empty from this tick on.
   virtual std::string* stop(int node, const char* code) = 0;

@@ -36,7 +36,8 @@ double BoundRatio::max() const {
     if (cholesky.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
     const Eigen::MatrixXd half = cholesky.matrixL().solve(outer_[cell] / runs);
     const Eigen::MatrixXd ratio = cholesky.matrixL().solve(half.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (ratio + ratio.transpose()), Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (ratio + ratio.transpose()),
+                                                               Eigen::EigenvaluesOnly);
     worst = std::fmax(worst, eigen.eigenvalues()[states_ - 1]);
   }
   return worst;

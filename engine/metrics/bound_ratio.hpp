@@ -1,4 +1,5 @@
-/// Does the bound bound? The ratio of the errors' covariance over runs to the mean bound: specification of seed 000, section 10.
+/// Does the bound bound? The ratio of the errors' covariance over runs to the mean bound: specification of seed 000,
+/// section 10.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +21,8 @@ struct BoundRecord {
 class BoundRatio {
  public:
   void add(const BoundRecord& record);
-  /// The largest over ticks and outputs of lambda_max(L^-1 P L^-T), L L' = mean bound, P = mean of e e' (no mean removed). Infinity where a
-  /// mean bound is not positive definite: never passed.
+  /// The largest over ticks and outputs of lambda_max(L^-1 P L^-T), L L' = mean bound, P = mean of e e' (no mean
+  /// removed). Infinity where a mean bound is not positive definite: never passed.
   double max() const;
 
  private:

@@ -63,7 +63,8 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
   score.nis = kNone;
   if (belief.innovation != nullptr) {
     const Eigen::Map<const Eigen::VectorXd> r(belief.innovation, belief.innovation_size);
-    score.nis = belief.innovation_covariance == nullptr ? r.squaredNorm() : inverse_form(belief.innovation_covariance, BoundedVector(r));
+    score.nis = belief.innovation_covariance == nullptr ? r.squaredNorm()
+                                                        : inverse_form(belief.innovation_covariance, BoundedVector(r));
   }
   if (window_.holds(k)) {
     nees_.add(score.nees);
@@ -73,7 +74,9 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
 }
 
 void LaneScore::append_metrics(const std::string& lane, std::vector<MetricValue>& metrics) const {
-  const auto add = [&](const std::string& node, const std::string& name, double value) { metrics.push_back({lane, node, name, "", value, false}); };
+  const auto add = [&](const std::string& node, const std::string& name, double value) {
+    metrics.push_back({lane, node, name, "", value, false});
+  };
   for (int g = 0; g < groups(); ++g) {
     Sum all;
     for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) {
@@ -93,7 +96,8 @@ void LaneScore::append_metrics(const std::string& lane, std::vector<MetricValue>
   if (outputs_.size() > 1 || outputs_.front() != "fused") {
     for (int g = 0; g < groups(); ++g) {
       for (std::size_t o = 0; o < outputs_.size(); ++o) {
-        add(outputs_[o], "rmse_" + groups_[static_cast<std::size_t>(g)].name, std::sqrt(cell(static_cast<int>(o), g).mean()));
+        add(outputs_[o], "rmse_" + groups_[static_cast<std::size_t>(g)].name,
+            std::sqrt(cell(static_cast<int>(o), g).mean()));
       }
     }
   }
@@ -102,7 +106,9 @@ void LaneScore::append_metrics(const std::string& lane, std::vector<MetricValue>
 }
 
 Json LaneScore::bounds(int channels) const {
-  const auto interval = [](int degrees) { return Json{chi_square_quantile(0.025, degrees), chi_square_quantile(0.975, degrees)}; };
+  const auto interval = [](int degrees) {
+    return Json{chi_square_quantile(0.025, degrees), chi_square_quantile(0.975, degrees)};
+  };
   return {{"nees_interval_95", interval(static_cast<int>(periods_.size()))}, {"nis_interval_95", interval(channels)}};
 }
 

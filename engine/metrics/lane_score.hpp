@@ -60,8 +60,8 @@ class LaneScore {
   std::vector<ErrorGroup> groups_;
   std::vector<double> periods_;
   std::vector<std::string> outputs_;
-  std::vector<Sum> sums_;       ///< squared errors, outputs x groups
-  std::vector<Sum> last_;       ///< squared errors of the first group in the last ticks, outputs x kWindow
+  std::vector<Sum> sums_;  ///< squared errors, outputs x groups
+  std::vector<Sum> last_;  ///< squared errors of the first group in the last ticks, outputs x kWindow
   Sum nees_, nis_;
 };
 

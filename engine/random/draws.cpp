@@ -46,7 +46,8 @@ Draws::Draws(std::uint64_t seed, std::string_view stream) : name_(fnv1a(stream))
 
 PhiloxBlock Draws::block(std::int64_t tick, std::uint32_t index, std::uint32_t sub) const {
   const auto address = static_cast<std::uint64_t>(tick);
-  return philox({static_cast<std::uint32_t>(address), name_, index, static_cast<std::uint32_t>(address >> 32 << 16) | sub}, key_);
+  return philox(
+      {static_cast<std::uint32_t>(address), name_, index, static_cast<std::uint32_t>(address >> 32 << 16) | sub}, key_);
 }
 
 double Draws::uniform(std::int64_t tick, std::uint32_t index) const {

@@ -18,7 +18,8 @@ std::optional<std::int64_t> read_tick(const Json& entry, const char* key, const 
   const auto it = entry.find(key);
   if (it == entry.end() || it->is_null()) return std::nullopt;
   if (!it->is_number_integer() || it->get<std::int64_t>() < 0) {
-    throw InputError(pointer + "/" + key, fmt::format("{} is {}; expected a tick, a whole number of at least 0, or null", key, quoted(*it)));
+    throw InputError(pointer + "/" + key,
+                     fmt::format("{} is {}; expected a tick, a whole number of at least 0, or null", key, quoted(*it)));
   }
   return it->get<std::int64_t>();
 }
@@ -32,37 +33,46 @@ Adversary::Adversary(const Json& document, const Graph& graph, const std::vector
 }
 
 Adversary::Adversary(const Adversary& other)
-    : graph_(other.graph_), nodes_(other.nodes_), channels_(other.channels_), seed_(other.seed_), message_(other.message_) {
+    : graph_(other.graph_),
+      nodes_(other.nodes_),
+      channels_(other.channels_),
+      seed_(other.seed_),
+      message_(other.message_) {
   for (const Entry& e : other.entries_) {
-    entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.link_name, e.node_name, e.from, e.to, e.enabled,
-                        e.by_hand, e.acting});
+    entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.link_name, e.node_name, e.from,
+                        e.to, e.enabled, e.by_hand, e.acting});
   }
 }
 
 int Adversary::find_link(const std::string& from, const std::string& to) const {
   for (int l = 0; l < static_cast<int>(graph_.links().size()); ++l) {
     const Link& link = graph_.links()[static_cast<std::size_t>(l)];
-    if (nodes_[static_cast<std::size_t>(link.from)] == from && nodes_[static_cast<std::size_t>(link.to)] == to) return l;
+    if (nodes_[static_cast<std::size_t>(link.from)] == from && nodes_[static_cast<std::size_t>(link.to)] == to)
+      return l;
   }
   return -1;
 }
 
-SensorPlace Adversary::find_sensor(const std::string& node, const std::string& channel, const std::string& pointer) const {
+SensorPlace Adversary::find_sensor(const std::string& node, const std::string& channel,
+                                   const std::string& pointer) const {
   const auto found = std::find(nodes_.begin(), nodes_.end(), node);
-  if (found == nodes_.end()) throw InputError(pointer, fmt::format("there is no node \"{}\"", node), fmt::format("{}", fmt::join(nodes_, ", ")));
+  if (found == nodes_.end())
+    throw InputError(pointer, fmt::format("there is no node \"{}\"", node), fmt::format("{}", fmt::join(nodes_, ", ")));
   SensorPlace place{static_cast<int>(found - nodes_.begin()), -1};
   if (channel.empty()) return place;
   const auto& names = channels_[static_cast<std::size_t>(place.node)];
   const auto name = std::find(names.begin(), names.end(), channel);
   if (name == names.end()) {
-    throw InputError(pointer, fmt::format("sensor {} has no channel \"{}\"", node, channel), fmt::format("{}", fmt::join(names, ", ")));
+    throw InputError(pointer, fmt::format("sensor {} has no channel \"{}\"", node, channel),
+                     fmt::format("{}", fmt::join(names, ", ")));
   }
   place.channel = static_cast<int>(name - names.begin());
   return place;
 }
 
 void Adversary::find_places(const Json& on, const std::string& pointer, Entry& entry) const {
-  if (!on.is_array() || on.empty()) throw InputError(pointer, "expected a list of places, such as [\"link:*\"] or [\"sensor:3\"]");
+  if (!on.is_array() || on.empty())
+    throw InputError(pointer, "expected a list of places, such as [\"link:*\"] or [\"sensor:3\"]");
   for (std::size_t p = 0; p < on.size(); ++p) {
     const std::string at = fmt::format("{}/{}", pointer, p);
     const std::string text = on[p].is_string() ? on[p].get<std::string>() : quoted(on[p]);
@@ -94,27 +104,31 @@ std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, c
   const auto* kind = Registry<AttackMake>::find(entry.type);
   if (kind == nullptr) {
     const std::string near = nearest(entry.type, Registry<AttackMake>::ids());
-    throw InputError(pointer + "/type",
-                     fmt::format("there is no attack \"{}\"{}", entry.type, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    throw InputError(pointer + "/type", fmt::format("there is no attack \"{}\"{}", entry.type,
+                                                    near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
   std::vector<Problem> problems;
   const Json complete = kind->params.complete(given, pointer + "/params", problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   AttackContext context{entry.id, seed_, message_, !entry.links.empty(), {}};
   for (const SensorPlace& place : entry.sensors) {
-    context.readings.push_back(place.channel >= 0 ? 1 : static_cast<int>(channels_[static_cast<std::size_t>(place.node)].size()));
+    context.readings.push_back(
+        place.channel >= 0 ? 1 : static_cast<int>(channels_[static_cast<std::size_t>(place.node)].size()));
   }
   auto attack = under(pointer + "/params", [&] { return kind->make(Params(complete), context); });
   if (!entry.links.empty() && !attack->acts_on(ChannelKind::link)) {
-    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on sensors, not on links", entry.type), "sensor:NODE or sensor:NODE.CHANNEL");
+    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on sensors, not on links", entry.type),
+                     "sensor:NODE or sensor:NODE.CHANNEL");
   }
   if (!entry.sensors.empty() && !attack->acts_on(ChannelKind::sensor)) {
-    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on links, not on sensors", entry.type), "link:* or link:FROM-TO");
+    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on links, not on sensors", entry.type),
+                     "link:* or link:FROM-TO");
   }
   return attack;
 }
 
-void Adversary::add(const std::string& id, const Json& document, bool by_hand, const std::string& pointer, std::int64_t now) {
+void Adversary::add(const std::string& id, const Json& document, bool by_hand, const std::string& pointer,
+                    std::int64_t now) {
   Entry entry;
   entry.id = id;
   entry.type = document.value("type", "");
@@ -125,11 +139,14 @@ void Adversary::add(const std::string& id, const Json& document, bool by_hand, c
   entry.from = read_tick(document, "from", pointer).value_or(now);
   entry.to = read_tick(document, "to", pointer);
   if (entry.to && *entry.to < entry.from) {
-    throw InputError(pointer + "/to", fmt::format("to is {}; the attack would end before it begins, at {}", *entry.to, entry.from),
+    throw InputError(pointer + "/to",
+                     fmt::format("to is {}; the attack would end before it begins, at {}", *entry.to, entry.from),
                      fmt::format(">= {}", entry.from));
   }
   entry.attack = make(entry, entry.params, pointer);
-  const auto later = [&](const Entry& other) { return other.from != entry.from ? other.from > entry.from : other.id > entry.id; };
+  const auto later = [&](const Entry& other) {
+    return other.from != entry.from ? other.from > entry.from : other.id > entry.id;
+  };
   entries_.insert(std::find_if(entries_.begin(), entries_.end(), later), std::move(entry));
 }
 
@@ -143,7 +160,8 @@ void Adversary::mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const 
   mark.node = entry.node_name;
   mark.code = entry.type;
   if (entry.links.size() > 1) mark.detail = fmt::format("{} links", entry.links.size());
-  if (entry.sensors.size() > 1) mark.detail += fmt::format("{}{} sensors", mark.detail.empty() ? "" : ", ", entry.sensors.size());
+  if (entry.sensors.size() > 1)
+    mark.detail += fmt::format("{}{} sensors", mark.detail.empty() ? "" : ", ", entry.sensors.size());
   sink.mark(mark);
 }
 
@@ -173,7 +191,8 @@ std::vector<LinkRates> Adversary::rates(const Graph& graph) const {
     }
   }
   std::vector<LinkRates> rates;
-  for (const Link& link : graph.links()) rates.push_back(base[static_cast<std::size_t>(graph_.find(link.from, link.to))]);
+  for (const Link& link : graph.links())
+    rates.push_back(base[static_cast<std::size_t>(graph_.find(link.from, link.to))]);
   return rates;
 }
 
@@ -203,13 +222,15 @@ void Adversary::retune(const std::string& id, const Json& values) {
   Json params = entry->params;
   for (const auto& [name, value] : values.items()) {
     if (name == "enabled") {
-      if (!value.is_boolean()) throw InputError(pointer + "/enabled", fmt::format("enabled is {}; expected true or false", quoted(value)));
+      if (!value.is_boolean())
+        throw InputError(pointer + "/enabled", fmt::format("enabled is {}; expected true or false", quoted(value)));
       enabled = value.get<bool>();
       continue;
     }
     const Param* declared = Registry<AttackMake>::find(entry->type)->params.find(name);
     if (declared == nullptr || !declared->live) {
-      throw InputError(pointer + "/params/" + name, fmt::format("\"{}\" cannot be changed while the run goes on", name));
+      throw InputError(pointer + "/params/" + name,
+                       fmt::format("\"{}\" cannot be changed while the run goes on", name));
     }
     params[name] = value;
   }

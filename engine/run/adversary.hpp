@@ -17,16 +17,17 @@ namespace vigil {
 class Adversary {
  public:
   Adversary() = default;
-  /// `document`: the scenario's "adversary". Links are those of `graph`, the graph the run starts with: a draw's index is the link's
-  /// place there, so that a later change of the graph moves no draw. `channels`: the names of each node's sensor channels.
+  /// `document`: the scenario's "adversary". Links are those of `graph`, the graph the run starts with: a draw's index
+  /// is the link's place there, so that a later change of the graph moves no draw. `channels`: the names of each node's
+  /// sensor channels.
   Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes,
             const std::vector<std::vector<std::string>>& channels, std::uint64_t seed, int message);
   Adversary(const Adversary& other);
   Adversary(Adversary&&) noexcept = default;
   Adversary& operator=(Adversary&&) noexcept = default;
 
-  /// Decides tick k for every link and sensor and marks attacks that begin or end with it. Attacks act in the order of their starts, then
-  /// ids, so that where one replaces another the later start wins.
+  /// Decides tick k for every link and sensor and marks attacks that begin or end with it. Attacks act in the order of
+  /// their starts, then ids, so that where one replaces another the later start wins.
   void act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, Sink& sink);
   /// What the document's attacks publish of their statistics, one a link. Attacks started by hand publish nothing.
   std::vector<LinkRates> rates(const Graph& graph) const;

@@ -82,7 +82,8 @@ TrialResult::~TrialResult() = default;
 
 TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace) {
   Run run(scenario, {seed, std::move(trace), {}});
-  if (!run.steps()) throw InputError("/time/steps", "steps is null: a trial of a campaign must end by itself", "a whole number");
+  if (!run.steps())
+    throw InputError("/time/steps", "steps is null: a trial of a campaign must end by itself", "a whole number");
   NullSink sink;
   while (!run.done()) run.step(sink);
   TrialResult result;
@@ -145,10 +146,11 @@ std::int64_t CampaignTable::trials() const { return state_->trials; }
 Json to_json(const MetricSummary& summary) {
   const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
   const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-  return {{"lane", text(summary.key.lane)},   {"node", text(summary.key.node)}, {"name", summary.key.name},
-          {"variant", text(summary.key.variant)}, {"mean", number(summary.mean)},   {"se", number(summary.se)},
-          {"median", number(summary.median)}, {"min", number(summary.min)},     {"max", number(summary.max)},
-          {"n", summary.n}};
+  return {{"lane", text(summary.key.lane)},   {"node", text(summary.key.node)},
+          {"name", summary.key.name},         {"variant", text(summary.key.variant)},
+          {"mean", number(summary.mean)},     {"se", number(summary.se)},
+          {"median", number(summary.median)}, {"min", number(summary.min)},
+          {"max", number(summary.max)},       {"n", summary.n}};
 }
 
 }  // namespace vigil

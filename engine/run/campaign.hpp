@@ -28,7 +28,8 @@ class TrialResult {
   std::unique_ptr<Extra> extra;
 };
 
-/// Runs one trial to its end. Throws InputError (the scenario), nothing else of its own. Safe to call from many threads at once.
+/// Runs one trial to its end. Throws InputError (the scenario), nothing else of its own. Safe to call from many threads
+/// at once.
 TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace = nullptr);
 
 struct MetricSummary {

@@ -25,7 +25,8 @@ std::vector<std::string> split(const std::string& path) {
 
 [[noreturn]] void not_live(const std::string& path, const std::string& pointer) {
   throw InputError(pointer, fmt::format("\"{}\" cannot be changed while the run goes on", path),
-                   "lanes.<lane>.params.<live parameter>, adversary.<attack>.params.<live parameter>, adversary.<attack>.enabled, network.graph");
+                   "lanes.<lane>.params.<live parameter>, adversary.<attack>.params.<live parameter>, "
+                   "adversary.<attack>.enabled, network.graph");
 }
 
 /// Runs `change` and gives the problems it throws the path of the value they speak of, else that of the group's first.
@@ -37,7 +38,8 @@ void at_paths(const ParamGroup& group, Change&& change) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
       const std::string name = problem.pointer.substr(problem.pointer.rfind('/') + 1);
-      problem.pointer = group.paths.contains(name) ? group.paths[name].get<std::string>() : group.paths.front().get<std::string>();
+      problem.pointer =
+          group.paths.contains(name) ? group.paths[name].get<std::string>() : group.paths.front().get<std::string>();
     }
     throw InputError(std::move(problems));
   }
@@ -45,7 +47,8 @@ void at_paths(const ParamGroup& group, Change&& change) {
 
 /// A hand's attack, checked like one of the document; without "from" it begins at once.
 Json hand_attack(const Json& given, const Json& document) {
-  if (!given.is_object()) throw InputError("/attack", "attack is " + shown(given) + "; expected {\"type\",\"on\",…}", "object");
+  if (!given.is_object())
+    throw InputError("/attack", "attack is " + shown(given) + "; expected {\"type\",\"on\",…}", "object");
   std::vector<Problem> problems;
   Json rest = given;
   rest.erase("id");
@@ -53,7 +56,8 @@ Json hand_attack(const Json& given, const Json& document) {
   Json attack = complete_attack(rest, document, "/attack", problems);
   const Json id = given.value("id", Json(nullptr));
   if (!id.is_string() || !is_member_id(id.get_ref<const std::string&>())) {
-    problems.push_back({"/attack/id", "id is " + shown(id) + "; expected 1 to 32 small letters, digits and '_'", "[a-z0-9_]{1,32}"});
+    problems.push_back(
+        {"/attack/id", "id is " + shown(id) + "; expected 1 to 32 small letters, digits and '_'", "[a-z0-9_]{1,32}"});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   attack["id"] = id;
@@ -68,14 +72,16 @@ void Run::State::change(const Command& command, Sink* sink) {
   std::vector<Problem> problems;
   check_structure(body, "", problems);
   if (!problems.empty()) throw InputError(std::move(problems));
-  if (!body.is_object() || body.size() != 1) throw InputError("", "a command has exactly one of params, attack, end_attack");
+  if (!body.is_object() || body.size() != 1)
+    throw InputError("", "a command has exactly one of params, attack, end_attack");
   Mark mark;
   mark.k = command.k;
   mark.type = MarkType::command;
   if (body.contains("params")) {
     set_params(body["params"]);
     mark.code = "params";
-    for (const auto& [path, value] : body["params"].items()) mark.detail += (mark.detail.empty() ? "" : ", ") + path + " = " + value.dump();
+    for (const auto& [path, value] : body["params"].items())
+      mark.detail += (mark.detail.empty() ? "" : ", ") + path + " = " + value.dump();
   } else if (body.contains("attack")) {
     const Json attack = hand_attack(body["attack"], scenario.document());
     adversary.start(attack, command.k);
@@ -95,7 +101,9 @@ void Run::State::change(const Command& command, Sink* sink) {
 
 /// Values for one lane or one attack are judged together, so that their order in the command does not matter.
 void Run::State::set_params(const Json& params) {
-  if (!params.is_object() || params.empty()) throw InputError("/params", "expected an object of paths and values, such as {\"lanes.consensus.params.tau\":0.02}");
+  if (!params.is_object() || params.empty())
+    throw InputError("/params",
+                     "expected an object of paths and values, such as {\"lanes.consensus.params.tau\":0.02}");
   std::vector<ParamGroup> groups;
   for (const auto& [path, value] : params.items()) {
     if (path == "network.graph") {
@@ -103,7 +111,8 @@ void Run::State::set_params(const Json& params) {
       continue;
     }
     const std::vector<std::string> parts = split(path);
-    const bool attack = parts[0] == "adversary" && ((parts.size() == 4 && parts[2] == "params") || (parts.size() == 3 && parts[2] == "enabled"));
+    const bool attack = parts[0] == "adversary" &&
+                        ((parts.size() == 4 && parts[2] == "params") || (parts.size() == 3 && parts[2] == "enabled"));
     const bool lane = parts[0] == "lanes" && parts.size() == 4 && parts[2] == "params";
     if (!attack && !lane) not_live(path, "/params/" + path);
     const auto same = [&](const ParamGroup& group) { return group.attack == attack && group.id == parts[1]; };
@@ -142,9 +151,11 @@ void Run::State::set_graph(const Json& value) {
     places.push_back(base.find(link.from, link.to));
     if (places.back() < 0) {
       throw InputError("/params/network.graph",
-                       fmt::format("\"{}\" needs the channel {}-{}, which this run was not started with; a live change may only use channels of "
+                       fmt::format("\"{}\" needs the channel {}-{}, which this run was not started with; a live change "
+                                   "may only use channels of "
                                    "the run's first graph",
-                                   value.get<std::string>(), nodes[static_cast<std::size_t>(link.from)], nodes[static_cast<std::size_t>(link.to)]));
+                                   value.get<std::string>(), nodes[static_cast<std::size_t>(link.from)],
+                                   nodes[static_cast<std::size_t>(link.to)]));
     }
   }
   graph = wanted;

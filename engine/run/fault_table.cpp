@@ -49,10 +49,11 @@ void FaultTable::mark_edges(const std::string& lane, const std::vector<std::stri
   }
 }
 
-void FaultTable::append(const std::string& lane, const std::vector<std::string>& outputs, std::vector<FaultCount>& faults) const {
+void FaultTable::append(const std::string& lane, const std::vector<std::string>& outputs,
+                        std::vector<FaultCount>& faults) const {
   for (const Entry& entry : entries_) {
-    faults.push_back({lane, entry.node >= 0 ? outputs[static_cast<std::size_t>(entry.node)] : "", entry.code, entry.first, entry.last,
-                      entry.count, entry.stopped, entry.detail});
+    faults.push_back({lane, entry.node >= 0 ? outputs[static_cast<std::size_t>(entry.node)] : "", entry.code,
+                      entry.first, entry.last, entry.count, entry.stopped, entry.detail});
   }
 }
 

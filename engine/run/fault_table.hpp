@@ -13,7 +13,9 @@ namespace vigil {
 class FaultTable final : public FaultReport {
  public:
   FaultTable() { entries_.reserve(kExpected); }
-  FaultTable(const FaultTable& other) : entries_(other.entries_), k_(other.k_), stopped_(other.stopped_) { entries_.reserve(kExpected); }
+  FaultTable(const FaultTable& other) : entries_(other.entries_), k_(other.k_), stopped_(other.stopped_) {
+    entries_.reserve(kExpected);
+  }
   FaultTable& operator=(const FaultTable&) = delete;
 
   void begin_tick(std::int64_t k) { k_ = k; }

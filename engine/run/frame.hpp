@@ -21,7 +21,7 @@ struct Signal {
   SignalKind kind = SignalKind::scalar;
   std::string lane;
   std::string node;
-  std::string link;                              ///< "from-to"
+  std::string link;                                 ///< "from-to"
   std::vector<std::pair<int, std::string>> labels;  ///< of a category: value and its English word
 };
 
@@ -46,7 +46,7 @@ class Catalogue {
 /// One tick of a run. A value that is missing (or was not finite: then a fault says so) is NaN.
 struct Frame {
   std::int64_t k = 0;
-  double t = 0;  ///< s
+  double t = 0;                ///< s
   std::vector<double> values;  ///< in catalogue order
 };
 
@@ -58,7 +58,7 @@ struct Mark {
   std::int64_t k = 0;
   MarkType type = MarkType::note;
   MarkEdge edge = MarkEdge::none;
-  std::string id;      ///< of an attack or command; may be empty
+  std::string id;  ///< of an attack or command; may be empty
   std::string lane;
   std::string node;
   std::string link;

@@ -32,8 +32,8 @@ std::string square_unit(const std::string& unit) { return unit.empty() ? "" : un
 
 }  // namespace
 
-Lane::Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params, const Plant& plant,
-           const Graph& graph, ScoreWindow window)
+Lane::Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params,
+           const Plant& plant, const Graph& graph, ScoreWindow window)
     : id_(std::move(id)),
       method_id_(std::move(method_id)),
       spared_(spared),
@@ -75,7 +75,8 @@ void Lane::declare(const Plant& plant, Catalogue& catalogue) {
   for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) {
     Slots slots{};
     slots.estimate = catalogue.size();
-    for (const Component& component : plant.state()) scope.add(o, "estimate." + component.name, component.unit, SignalKind::scalar);
+    for (const Component& component : plant.state())
+      scope.add(o, "estimate." + component.name, component.unit, SignalKind::scalar);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::string suffix = g == 0 ? "" : "_" + groups[g].name;
       slots.error[g] = scope.add(o, "error" + suffix, groups[g].unit, SignalKind::scalar);
@@ -101,8 +102,8 @@ void Lane::exchange(const Graph& graph, std::span<const int> base, const LinkEff
   }
 }
 
-void Lane::tick(std::int64_t k, const Graph& graph, std::span<const int> base, const LinkEffects& effects, const Eigen::VectorXd& input,
-                const Readings& readings) {
+void Lane::tick(std::int64_t k, const Graph& graph, std::span<const int> base, const LinkEffects& effects,
+                const Eigen::VectorXd& input, const Readings& readings) {
   if (stopped()) return;
   faults_.begin_tick(k);
   method_->predict(input, faults_);
@@ -120,8 +121,8 @@ void Lane::publish(std::int64_t k, const Eigen::VectorXd& truth, const Plant& pl
   method_->publish(values);
 }
 
-void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& truth, const Plant& plant, std::span<double> values,
-                          double& square) {
+void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& truth, const Plant& plant,
+                          std::span<double> values, double& square) {
   const Belief belief = method_->belief(output);
   const Slots& slots = slots_[static_cast<std::size_t>(output)];
   const auto put = [&](int slot, double value) { values[static_cast<std::size_t>(slot)] = value; };

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/methods/method.hpp"
 #include "engine/metrics/bound_ratio.hpp"
 #include "engine/metrics/lane_score.hpp"
-#include "engine/methods/method.hpp"
 #include "engine/run/fault_table.hpp"
 
 namespace vigil {
@@ -16,15 +16,15 @@ namespace vigil {
 class Lane {
  public:
   /// `spared`: the adversary does not touch it.
-  Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params, const Plant& plant, const Graph& graph,
-       ScoreWindow window);
+  Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params,
+       const Plant& plant, const Graph& graph, ScoreWindow window);
   Lane(const Lane& other);
   Lane(Lane&&) noexcept = default;
 
   void declare(const Plant& plant, Catalogue& catalogue);
   /// Steps 4, 5 and 7 of a tick. `base` maps each link of `graph` to its place in `effects`.
-  void tick(std::int64_t k, const Graph& graph, std::span<const int> base, const LinkEffects& effects, const Eigen::VectorXd& input,
-            const Readings& readings);
+  void tick(std::int64_t k, const Graph& graph, std::span<const int> base, const LinkEffects& effects,
+            const Eigen::VectorXd& input, const Readings& readings);
   /// Scores against the truth and writes the lane's signals (NaN once it has stopped).
   void publish(std::int64_t k, const Eigen::VectorXd& truth, const Plant& plant, std::span<double> values);
   void rewire(const Graph& graph, const std::vector<LinkRates>& rates);
@@ -49,7 +49,8 @@ class Lane {
     int error[LaneScore::kMaxGroups], bound[LaneScore::kMaxGroups];
   };
   void exchange(const Graph& graph, std::span<const int> base, const LinkEffects& effects);
-  void publish_output(std::int64_t k, int output, const Eigen::VectorXd& truth, const Plant& plant, std::span<double> values, double& square);
+  void publish_output(std::int64_t k, int output, const Eigen::VectorXd& truth, const Plant& plant,
+                      std::span<double> values, double& square);
   void publish_spread(const Plant& plant, std::span<double> values) const;
 
   std::string id_, method_id_;

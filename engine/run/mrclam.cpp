@@ -38,14 +38,16 @@ Rows read_rows(std::string_view text, const char* file, std::size_t columns) {
       double value = 0;
       const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
       if (error != std::errc() || !std::isfinite(value)) {
-        throw InputError("/" + std::string(file), fmt::format("line {} of {}: \"{}\" is not a number", line, file, rest.substr(0, 24)));
+        throw InputError("/" + std::string(file),
+                         fmt::format("line {} of {}: \"{}\" is not a number", line, file, rest.substr(0, 24)));
       }
       row.push_back(value);
       rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
     }
     if (row.empty()) continue;
     if (row.size() < columns) {
-      throw InputError("/" + std::string(file), fmt::format("line {} of {} has {} numbers; expected {}", line, file, row.size(), columns));
+      throw InputError("/" + std::string(file),
+                       fmt::format("line {} of {} has {} numbers; expected {}", line, file, row.size(), columns));
     }
     rows.push_back(std::move(row));
   }
@@ -78,7 +80,8 @@ std::vector<double> pose_at(const Rows& rows, std::size_t& cursor, double time) 
   return {a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2]), a[3] + share * wrap(b[3] - a[3], kTurn)};
 }
 
-/// Readings of one landmark at one tick: sums, to be averaged. Bearings are averaged around the first, not across the seam.
+/// Readings of one landmark at one tick: sums, to be averaged. Bearings are averaged around the first, not across the
+/// seam.
 struct Reading {
   double range = 0, bearing = 0, first = 0;
   int count = 0;
@@ -92,8 +95,8 @@ struct Reading {
 
 using Readings = std::map<std::int64_t, std::map<int, Reading>>;
 
-Readings gather(const Rows& measurement, const std::map<int, int>& subject_of, const std::map<int, std::vector<double>>& landmarks, double begin,
-                double dt, std::int64_t last) {
+Readings gather(const Rows& measurement, const std::map<int, int>& subject_of,
+                const std::map<int, std::vector<double>>& landmarks, double begin, double dt, std::int64_t last) {
   Readings readings;
   for (const auto& row : measurement) {
     const auto subject = subject_of.find(static_cast<int>(row[1]));
@@ -107,11 +110,14 @@ Readings gather(const Rows& measurement, const std::map<int, int>& subject_of, c
 }  // namespace
 
 std::string mrclam_to_csv(const MrclamFiles& files, double dt) {
-  if (!(dt > 0) || !std::isfinite(dt)) throw InputError("/dt", fmt::format("dt is {}; expected seconds above 0", dt), "> 0");
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw InputError("/dt", fmt::format("dt is {}; expected seconds above 0", dt), "> 0");
   std::map<int, int> subject_of;
-  for (const auto& row : read_rows(files.barcodes, "Barcodes", 2)) subject_of[static_cast<int>(row[1])] = static_cast<int>(row[0]);
+  for (const auto& row : read_rows(files.barcodes, "Barcodes", 2))
+    subject_of[static_cast<int>(row[1])] = static_cast<int>(row[0]);
   std::map<int, std::vector<double>> landmarks;
-  for (const auto& row : read_rows(files.landmarks, "Landmark_Groundtruth", 3)) landmarks[static_cast<int>(row[0])] = {row[1], row[2]};
+  for (const auto& row : read_rows(files.landmarks, "Landmark_Groundtruth", 3))
+    landmarks[static_cast<int>(row[0])] = {row[1], row[2]};
   Rows truth = read_rows(files.groundtruth, "Groundtruth", 4), odometry = read_rows(files.odometry, "Odometry", 3);
   const Rows measurement = read_rows(files.measurement, "Measurement", 4);
   sort_by_time(truth);
@@ -120,12 +126,14 @@ std::string mrclam_to_csv(const MrclamFiles& files, double dt) {
   const double end = std::min(truth.back()[0], odometry.back()[0]);
   const double ticks = std::floor((end - begin) / dt + 1e-9);
   if (!(ticks >= 1)) throw InputError("/odometry", "odometry and truth do not overlap for one tick");
-  if (ticks > static_cast<double>(kMaxTicks)) throw InputError("/dt", fmt::format("dt is {} s: more than {} ticks", dt, kMaxTicks));
+  if (ticks > static_cast<double>(kMaxTicks))
+    throw InputError("/dt", fmt::format("dt is {} s: more than {} ticks", dt, kMaxTicks));
   const auto last = static_cast<std::int64_t>(ticks);
   const Readings readings = gather(measurement, subject_of, landmarks, begin, dt, last);
 
   Catalogue catalogue;
-  for (const char* name : {"truth.x", "truth.y", "truth.theta", "input.v", "input.omega"}) catalogue.add({.name = name});
+  for (const char* name : {"truth.x", "truth.y", "truth.theta", "input.v", "input.omega"})
+    catalogue.add({.name = name});
   for (const auto& [id, place] : landmarks) {
     for (const char* channel : {"range", "bearing"}) catalogue.add({.name = fmt::format("sensor.{}.{}", id, channel)});
   }

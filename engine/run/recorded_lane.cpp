@@ -10,8 +10,12 @@ namespace {
 class Recorded final : public Method {
  public:
   Recorded(std::shared_ptr<const Trace> trace, std::vector<std::string> outputs, std::vector<std::vector<int>> columns)
-      : trace_(std::move(trace)), outputs_(std::move(outputs)), columns_(std::move(columns)), estimates_(columns_.size()) {
-    for (std::size_t o = 0; o < columns_.size(); ++o) estimates_[o].resize(static_cast<Eigen::Index>(columns_[o].size()));
+      : trace_(std::move(trace)),
+        outputs_(std::move(outputs)),
+        columns_(std::move(columns)),
+        estimates_(columns_.size()) {
+    for (std::size_t o = 0; o < columns_.size(); ++o)
+      estimates_[o].resize(static_cast<Eigen::Index>(columns_[o].size()));
     read();
   }
 
@@ -30,7 +34,8 @@ class Recorded final : public Method {
  private:
   void read() {
     for (std::size_t o = 0; o < columns_.size(); ++o) {
-      for (std::size_t c = 0; c < columns_[o].size(); ++c) estimates_[o][static_cast<Eigen::Index>(c)] = trace_->at(k_, columns_[o][c]);
+      for (std::size_t c = 0; c < columns_[o].size(); ++c)
+        estimates_[o][static_cast<Eigen::Index>(c)] = trace_->at(k_, columns_[o][c]);
     }
   }
 
@@ -53,7 +58,8 @@ std::pair<std::string, std::string> lane_and_node(std::string_view name, const s
 
 }  // namespace
 
-std::vector<RecordedLane> find_recorded_lanes(const std::shared_ptr<const Trace>& trace, const Json& lanes, const Plant& plant) {
+std::vector<RecordedLane> find_recorded_lanes(const std::shared_ptr<const Trace>& trace, const Json& lanes,
+                                              const Plant& plant) {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> outputs;
   std::vector<std::vector<std::vector<int>>> columns;
@@ -61,7 +67,8 @@ std::vector<RecordedLane> find_recorded_lanes(const std::shared_ptr<const Trace>
     const auto [lane, node] = lane_and_node(column, plant.state().front().name);
     if (lane.empty() || lanes.contains(lane)) continue;
     std::vector<int> mine;
-    for (const Component& c : plant.state()) mine.push_back(trace->find("lane." + lane + "." + node + ".estimate." + c.name));
+    for (const Component& c : plant.state())
+      mine.push_back(trace->find("lane." + lane + "." + node + ".estimate." + c.name));
     if (std::find(mine.begin(), mine.end(), -1) != mine.end()) continue;
     std::size_t place = static_cast<std::size_t>(std::find(names.begin(), names.end(), lane) - names.begin());
     if (place == names.size()) {

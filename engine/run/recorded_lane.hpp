@@ -1,4 +1,5 @@
-/// A lane computed elsewhere: estimates that a trace brings in columns lane.<name>.<node>.estimate.<component>, scored among ours.
+/// A lane computed elsewhere: estimates that a trace brings in columns lane.<name>.<node>.estimate.<component>, scored
+/// among ours.
 #pragma once
 
 #include <memory>
@@ -17,6 +18,7 @@ struct RecordedLane {
 };
 
 /// Every lane of the trace that the scenario does not have and that has all of the plant's state components at a node.
-std::vector<RecordedLane> find_recorded_lanes(const std::shared_ptr<const Trace>& trace, const Json& lanes, const Plant& plant);
+std::vector<RecordedLane> find_recorded_lanes(const std::shared_ptr<const Trace>& trace, const Json& lanes,
+                                              const Plant& plant);
 
 }  // namespace vigil

@@ -7,7 +7,8 @@
 
 namespace vigil {
 
-Run::Run(const Scenario& scenario, RunOptions options) : state_(std::make_unique<State>(scenario, std::move(options))) {}
+Run::Run(const Scenario& scenario, RunOptions options)
+    : state_(std::make_unique<State>(scenario, std::move(options))) {}
 Run::Run(const Run& other) : state_(std::make_unique<State>(*other.state_)) {}
 Run::Run(Run&& other) noexcept = default;
 Run& Run::operator=(Run other) noexcept {
@@ -61,8 +62,8 @@ std::vector<MetricValue> Run::metrics() const {
   for (const Lane& lane : state_->lanes) {
     lane.score().append_metrics(lane.id(), metrics);
     for (const OwnMetric& own : lane.method().metrics()) {
-      metrics.push_back({lane.id(), own.output >= 0 ? lane.outputs()[static_cast<std::size_t>(own.output)] : "", own.name, "", own.value,
-                         own.boolean});
+      metrics.push_back({lane.id(), own.output >= 0 ? lane.outputs()[static_cast<std::size_t>(own.output)] : "",
+                         own.name, "", own.value, own.boolean});
     }
     std::vector<FaultCount> faults;
     lane.faults().append(lane.id(), lane.outputs(), faults);
@@ -101,14 +102,16 @@ Json Run::world() const {
   Json world{{"nodes", Json::array()}, {"links", Json::array()}, {"lanes", Json::array()}, {"state", Json::array()}};
   for (std::size_t i = 0; i < s.nodes.size(); ++i) {
     const auto place = s.sensors[i]->position();
-    world["nodes"].push_back({{"id", s.nodes[i]}, {"position", place ? Json{(*place)[0], (*place)[1]} : Json(nullptr)}});
+    world["nodes"].push_back(
+        {{"id", s.nodes[i]}, {"position", place ? Json{(*place)[0], (*place)[1]} : Json(nullptr)}});
   }
   for (const Link& link : s.graph.links()) {
     const std::string& from = s.nodes[static_cast<std::size_t>(link.from)];
     const std::string& to = s.nodes[static_cast<std::size_t>(link.to)];
     world["links"].push_back({{"id", from + "-" + to}, {"from", from}, {"to", to}});
   }
-  for (const Lane& lane : s.lanes) world["lanes"].push_back({{"id", lane.id()}, {"method", lane.method_id()}, {"adversary", !lane.spared()}});
+  for (const Lane& lane : s.lanes)
+    world["lanes"].push_back({{"id", lane.id()}, {"method", lane.method_id()}, {"adversary", !lane.spared()}});
   for (const Component& c : s.plant->state()) world["state"].push_back({{"name", c.name}, {"unit", c.unit}});
   return world;
 }
@@ -117,13 +120,17 @@ Json to_json(const MetricValue& metric) {
   const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
   Json value(nullptr);
   if (std::isfinite(metric.value)) value = metric.boolean ? Json(metric.value != 0) : Json(metric.value);
-  return {{"lane", text(metric.lane)}, {"node", text(metric.node)}, {"name", metric.name}, {"variant", text(metric.variant)}, {"value", value}};
+  return {{"lane", text(metric.lane)},
+          {"node", text(metric.node)},
+          {"name", metric.name},
+          {"variant", text(metric.variant)},
+          {"value", value}};
 }
 
 Json to_json(const FaultCount& fault) {
-  return {{"lane", fault.lane}, {"node", fault.node.empty() ? Json(nullptr) : Json(fault.node)},
-          {"code", fault.code}, {"first", fault.first},
-          {"last", fault.last}, {"count", fault.count},
+  return {{"lane", fault.lane},       {"node", fault.node.empty() ? Json(nullptr) : Json(fault.node)},
+          {"code", fault.code},       {"first", fault.first},
+          {"last", fault.last},       {"count", fault.count},
           {"stopped", fault.stopped}, {"detail", fault.detail}};
 }
 

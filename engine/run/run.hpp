@@ -1,4 +1,5 @@
-/// One run: a scenario, a seed, a version. Stepped by its caller, who owns time. No thread, clock, file or socket inside.
+/// One run: a scenario, a seed, a version. Stepped by its caller, who owns time. No thread, clock, file or socket
+/// inside.
 #pragma once
 
 #include <cstdint>
@@ -45,8 +46,8 @@ struct FaultCount {
   std::int64_t first = 0;  ///< tick
   std::int64_t last = 0;   ///< tick
   std::int64_t count = 0;
-  bool stopped = false;    ///< this fault stopped its lane
-  std::string detail;      ///< of the first
+  bool stopped = false;  ///< this fault stopped its lane
+  std::string detail;    ///< of the first
 };
 
 Json to_json(const FaultCount& fault);
@@ -60,7 +61,8 @@ struct RunOptions {
 /// A value: a copy is a fork that goes on by itself.
 class Run {
  public:
-  /// Throws InputError where the scenario cannot be run as it is (sizes, ranges, a trace that is missing or does not fit).
+  /// Throws InputError where the scenario cannot be run as it is (sizes, ranges, a trace that is missing or does not
+  /// fit).
   Run(const Scenario& scenario, RunOptions options);
   Run(const Run& other);
   Run(Run&& other) noexcept;
@@ -89,7 +91,8 @@ class Run {
   std::vector<std::string> warnings() const;
   /// {"<lane>":{constants computed before the run}}
   Json design() const;
-  /// {"nodes":[{"id","position":[x,y] or null}],"links":[{"id":"1-2","from":"1","to":"2"}],"lanes":[{"id","method","adversary"}],
+  /// {"nodes":[{"id","position":[x,y] or
+  /// null}],"links":[{"id":"1-2","from":"1","to":"2"}],"lanes":[{"id","method","adversary"}],
   ///  "state":[{"name","unit"}]}: what a page needs to draw the run. Follows a live change of the graph.
   Json world() const;
 

@@ -14,7 +14,8 @@ namespace vigil {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kRecordLimit = 40'000;  // cells (ticks x nodes) of a lane's bound record: enough for the papers, bounded for the rest
+constexpr std::int64_t kRecordLimit =
+    40'000;  // cells (ticks x nodes) of a lane's bound record: enough for the papers, bounded for the rest
 
 template <class Make>
 const Entry<Make>& entry_of(const std::string& type, const std::string& pointer) {
@@ -59,8 +60,10 @@ void check_states(const Trace& trace, int column) {
     const double state = trace.at(k, column);
     if (std::isnan(state) || state == 0 || state == 1 || state == 2 || state == 3) continue;
     const std::string& name = trace.columns()[static_cast<std::size_t>(column)];
-    throw InputError("/input/trace", fmt::format("{} is {} at tick {}; expected 0 clean, 1 DoS, 2 FDI, 3 replay or nothing", name, state, k),
-                     "0, 1, 2, 3");
+    throw InputError(
+        "/input/trace",
+        fmt::format("{} is {} at tick {}; expected 0 clean, 1 DoS, 2 FDI, 3 replay or nothing", name, state, k),
+        "0, 1, 2, 3");
   }
 }
 
@@ -80,7 +83,8 @@ Graph read_network(const Json& network, const std::vector<std::string>& nodes, c
 
 Run::State::State(const Scenario& given, RunOptions options)
     : scenario(given), seed(options.seed), trace(std::move(options.trace)), pending(std::move(options.commands)) {
-  std::stable_sort(pending.begin(), pending.end(), [](const Command& one, const Command& other) { return one.k < other.k; });
+  std::stable_sort(pending.begin(), pending.end(),
+                   [](const Command& one, const Command& other) { return one.k < other.k; });
   const Json& document = scenario.document();
   dt = document.at("time").at("dt").get<double>();
   if (!document["time"]["steps"].is_null()) last_tick = document["time"]["steps"].get<std::int64_t>();
@@ -100,10 +104,13 @@ Run::State::State(const Scenario& given, RunOptions options)
 
 void Run::State::check_trace(const Json& /*document*/) {
   if (trace->first_tick() != 0) {
-    throw InputError("/input/trace", fmt::format("the trace begins at tick {}; a run begins at 0", trace->first_tick()), "k = 0 in its first row");
+    throw InputError("/input/trace", fmt::format("the trace begins at tick {}; a run begins at 0", trace->first_tick()),
+                     "k = 0 in its first row");
   }
   if (trace->rows() > 1 && std::abs(trace->dt() - dt) > 1e-6 * dt) {
-    throw InputError("/time/dt", fmt::format("dt is {} s and the trace has {} s between its rows; they must be the same", dt, trace->dt()));
+    throw InputError(
+        "/time/dt",
+        fmt::format("dt is {} s and the trace has {} s between its rows; they must be the same", dt, trace->dt()));
   }
   const std::int64_t end = trace->rows() - 1;
   last_tick = last_tick ? std::min(*last_tick, end) : end;
@@ -113,7 +120,8 @@ void Run::State::set_world(const Json& document) {
   const auto& plant_entry = entry_of<PlantMake>(document["plant"]["type"].get<std::string>(), "/plant/type");
   plant = under("/plant/params", [&] { return plant_entry.make(Params(document["plant"]["params"]), dt); });
   const int n = plant->states();
-  if (n > kMaxSmall) throw InputError("/plant", fmt::format("the plant has {} states; at most {} are supported", n, kMaxSmall));
+  if (n > kMaxSmall)
+    throw InputError("/plant", fmt::format("the plant has {} states; at most {} are supported", n, kMaxSmall));
 
   const Json& node_documents = document["nodes"];
   positions = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(node_documents.size()));
@@ -121,7 +129,8 @@ void Run::State::set_world(const Json& document) {
     const Json& sensor = node["sensor"];
     const std::string pointer = "/nodes/" + id + "/sensor";
     Json params = sensor["params"];
-    if (trace && params.contains("position") && params["position"].is_null()) {  // a recording brings its survey in row 0
+    if (trace && params.contains("position") &&
+        params["position"].is_null()) {  // a recording brings its survey in row 0
       const int x = trace->find("node." + id + ".position.x"), y = trace->find("node." + id + ".position.y");
       if (x >= 0 && y >= 0) params["position"] = {trace->at(0, x), trace->at(0, y)};
     }
@@ -143,7 +152,8 @@ void Run::State::set_world(const Json& document) {
   graph = base;
   base_of.resize(base.links().size());
   for (std::size_t l = 0; l < base_of.size(); ++l) base_of[l] = static_cast<int>(l);
-  if (!base.connected() && !base.links().empty()) warnings.emplace_back("the network is not connected: its parts never hear of each other");
+  if (!base.connected() && !base.links().empty())
+    warnings.emplace_back("the network is not connected: its parts never hear of each other");
   effects.resize(n, static_cast<int>(base.links().size()));
   std::vector<int> sizes;
   for (const auto& sensor : sensors) sizes.push_back(sensor->size());
@@ -166,7 +176,8 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::
   const Json estimates = initial.value("estimates", Json(nullptr));
   Eigen::VectorXd centre = given_truth.is_null() ? truth : read_vector(given_truth, n, "/initial/truth");
   if (!centre.allFinite() && !estimates.is_object()) {
-    throw InputError("/initial/truth", "the trace has no truth in its first row, so initial.truth or initial.estimates must be given");
+    throw InputError("/initial/truth",
+                     "the trace has no truth in its first row, so initial.truth or initial.estimates must be given");
   }
   const Eigen::MatrixXd root = symmetric_root(P0);
   Eigen::MatrixXd result(n, static_cast<Eigen::Index>(nodes.size()));
@@ -176,7 +187,9 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::
       result.col(column) = read_vector(estimates[nodes[i]], n, "/initial/estimates/" + nodes[i]);
       continue;
     }
-    if (!centre.allFinite()) throw InputError("/initial/estimates", fmt::format("node \"{}\" has no initial estimate and the trace no truth", nodes[i]));
+    if (!centre.allFinite())
+      throw InputError("/initial/estimates",
+                       fmt::format("node \"{}\" has no initial estimate and the trace no truth", nodes[i]));
     Eigen::VectorXd draw(n);
     Draws(seed, "initial." + nodes[i]).normals(0, draw);
     result.col(column) = centre;
@@ -236,7 +249,8 @@ void Run::State::find_columns() {
     }
   }
   for (const Link& link : base.links()) {
-    const std::string name = "link." + nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
+    const std::string name =
+        "link." + nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
     columns.link_state.push_back(find(name + ".state"));
     if (columns.link_state.back() >= 0) check_states(*trace, columns.link_state.back());
     columns.injected.emplace_back();
@@ -244,18 +258,24 @@ void Run::State::find_columns() {
   }
   if (!trace) {
     if (plant->inputs() > 0) {
-      throw InputError("/plant/type", "this plant is driven by a recorded input, so the run needs a trace (--trace FILE, or \"input\":{\"trace\":id})");
+      throw InputError("/plant/type",
+                       "this plant is driven by a recorded input, so the run needs a trace (--trace FILE, or "
+                       "\"input\":{\"trace\":id})");
     }
     return;
   }
-  if (!any) throw InputError("/input/trace", "the trace has no column sensor.<node>.<channel> of this scenario's nodes");
+  if (!any)
+    throw InputError("/input/trace", "the trace has no column sensor.<node>.<channel> of this scenario's nodes");
   for (std::size_t c = 0; c < columns.input.size(); ++c) {
-    if (columns.input[c] < 0) throw InputError("/input/trace", "the trace has no column input." + plant->input()[c].name + ", which the plant needs");
+    if (columns.input[c] < 0)
+      throw InputError("/input/trace",
+                       "the trace has no column input." + plant->input()[c].name + ", which the plant needs");
   }
 }
 
 void Run::State::declare_signals() {
-  const auto add = [&](const std::string& name, const std::string& unit, SignalKind kind, const std::string& node, const std::string& link) {
+  const auto add = [&](const std::string& name, const std::string& unit, SignalKind kind, const std::string& node,
+                       const std::string& link) {
     Signal signal{.name = name, .unit = unit, .kind = kind, .node = node, .link = link};
     if (kind == SignalKind::category) signal.labels = {{0, "clean"}, {1, "DoS"}, {2, "FDI"}, {3, "replay"}};
     return catalogue.add(std::move(signal));
@@ -275,7 +295,8 @@ void Run::State::declare_signals() {
   for (const Link& link : base.links()) {
     const std::string id = nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
     slots.link.push_back(add("link." + id + ".state", "", SignalKind::category, "", id));
-    for (const Component& c : plant->state()) add("link." + id + ".injected." + c.name, c.unit, SignalKind::scalar, "", id);
+    for (const Component& c : plant->state())
+      add("link." + id + ".injected." + c.name, c.unit, SignalKind::scalar, "", id);
     add("link." + id + ".strength", "", SignalKind::scalar, "", id);
   }
   for (Lane& lane : lanes) lane.declare(*plant, catalogue);

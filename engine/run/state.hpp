@@ -19,15 +19,16 @@ namespace vigil {
 struct TraceColumns {
   std::vector<int> truth, input;
   std::vector<std::vector<int>> sensor, sent, tampered;  ///< node, channel: as received, honest, added by the adversary
-  std::vector<int> link_state;             ///< base link
-  std::vector<std::vector<int>> injected;  ///< base link, component
+  std::vector<int> link_state;                           ///< base link
+  std::vector<std::vector<int>> injected;                ///< base link, component
 };
 
 /// Ids of the world's signals.
 struct WorldSlots {
   int truth = 0, input = 0;
-  std::vector<int> sensor;  ///< one a node: received, honest (.sent) and added (.injected) of the first channel, then of the next
-  std::vector<int> link;    ///< state, then injected components, then strength; one a base link
+  std::vector<int>
+      sensor;  ///< one a node: received, honest (.sent) and added (.injected) of the first channel, then of the next
+  std::vector<int> link;  ///< state, then injected components, then strength; one a base link
 };
 
 /// Live values of one command for one lane or attack.
@@ -55,9 +56,9 @@ struct Run::State {
   std::vector<std::string> nodes;
   std::vector<std::shared_ptr<const Sensor>> sensors;
   Eigen::Matrix2Xd positions;
-  bool placed = false;  ///< some sensor has a position
-  Graph base;           ///< the graph the run started with: its links are the catalogue's
-  Graph graph;          ///< as it is now
+  bool placed = false;       ///< some sensor has a position
+  Graph base;                ///< the graph the run started with: its links are the catalogue's
+  Graph graph;               ///< as it is now
   std::vector<int> base_of;  ///< link of `graph` -> link of `base`
   Eigen::MatrixXd Q_root;
   std::vector<Eigen::MatrixXd> R_root;

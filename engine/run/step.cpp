@@ -44,7 +44,8 @@ void Run::State::advance_world() {
   if (trace) {
     for (std::size_t c = 0; c < columns.input.size(); ++c) {
       const double value = trace->at(k, columns.input[c]);
-      if (std::isfinite(value)) input[static_cast<Eigen::Index>(c)] = value;  // a missing input holds the last one, or is none
+      if (std::isfinite(value))
+        input[static_cast<Eigen::Index>(c)] = value;  // a missing input holds the last one, or is none
       if (!std::isfinite(input[static_cast<Eigen::Index>(c)])) input[static_cast<Eigen::Index>(c)] = 0;
     }
     for (Eigen::Index c = 0; c < truth.size(); ++c) {
@@ -71,7 +72,8 @@ void Run::State::sense() {
     }
     sensors[i]->measure(truth, z);
     for (Eigen::Index r = 0; r < z.size(); ++r) {
-      for (Eigen::Index c = 0; c < z.size(); ++c) z[r] += R_root[i](r, c) * sensor_noise[i].normal(k, static_cast<std::uint32_t>(c));
+      for (Eigen::Index c = 0; c < z.size(); ++c)
+        z[r] += R_root[i](r, c) * sensor_noise[i].normal(k, static_cast<std::uint32_t>(c));
     }
   }
 }
@@ -88,7 +90,8 @@ void Run::State::deliver_readings() {
   }
 }
 
-/// A sensor whose `injected` columns the trace has bypasses the adversary: the reading is there as received, and beside it the honest one.
+/// A sensor whose `injected` columns the trace has bypasses the adversary: the reading is there as received, and beside
+/// it the honest one.
 void Run::State::override_sensors() {
   for (std::size_t i = 0; i < readings.size(); ++i) {
     bool described = false;

@@ -135,14 +135,17 @@ Json initial(const Json& document) {
 }
 
 Json attack() {
-  const Json place = {{"type", "string"}, {"pattern", "^(link:(\\*|[A-Za-z0-9_]{1,16}-[A-Za-z0-9_]{1,16})|sensor:[A-Za-z0-9_]{1,16}(\\.[A-Za-z0-9_]{1,32})?)$"}};
+  const Json place = {
+      {"type", "string"},
+      {"pattern",
+       "^(link:(\\*|[A-Za-z0-9_]{1,16}-[A-Za-z0-9_]{1,16})|sensor:[A-Za-z0-9_]{1,16}(\\.[A-Za-z0-9_]{1,32})?)$"}};
   const Json places = {{"type", "array"}, {"items", place}, {"minItems", 1}, {"maxItems", 4096}};
   Json enabled = leaf(boolean(), {"Acts", "启用"}, true);
   enabled["x-live"] = true;
   Json result =
       object({{"type", kinds<AttackMake>({"Attack", "攻击"})},
               {"on", leaf(places, {"Where: link:<from>-<to>, link:*, sensor:<node> or sensor:<node>.<channel>",
-                                    "作用位置：link:<from>-<to>、link:*、sensor:<node> 或 sensor:<node>.<channel>"})},
+                                   "作用位置：link:<from>-<to>、link:*、sensor:<node> 或 sensor:<node>.<channel>"})},
               {"from", leaf(tick(0, false), {"First tick", "起始步"}, 1)},
               {"to", leaf(tick(0, true), {"Last tick; none: to the end", "结束步；无：直至结束"}, nullptr)},
               {"enabled", std::move(enabled)},

@@ -62,8 +62,8 @@ std::optional<Problem> check_place(const std::string& text, const Ground& ground
   if (place->kind == PlaceKind::sensor) {  // the channel is checked where the sensor is made
     if (ground.index(place->node) >= 0) return std::nullopt;
     return Problem{pointer,
-                   in_quotes(text) + " names node " + in_quotes(place->node) + ", which is not there; expected nodes of " +
-                       listed(ground.nodes),
+                   in_quotes(text) + " names node " + in_quotes(place->node) +
+                       ", which is not there; expected nodes of " + listed(ground.nodes),
                    listed(ground.nodes)};
   }
   return Problem{

@@ -1,4 +1,5 @@
-/// The network between nodes: an undirected graph whose every edge is two directed channels. Seed 000, section 3 of the specification.
+/// The network between nodes: an undirected graph whose every edge is two directed channels. Seed 000, section 3 of the
+/// specification.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,16 +17,20 @@ struct Link {
   bool operator==(const Link&) const = default;
 };
 
-/// Links are grouped by their receiver and within it ordered by sender, so that the links into a node are one contiguous range.
+/// Links are grouped by their receiver and within it ordered by sender, so that the links into a node are one
+/// contiguous range.
 class Graph {
  public:
   Graph() = default;
-  /// Edges as pairs of distinct node indices below `nodes`; an edge given twice counts once. Throws InputError at /network/edges.
+  /// Edges as pairs of distinct node indices below `nodes`; an edge given twice counts once. Throws InputError at
+  /// /network/edges.
   Graph(int nodes, const std::vector<std::pair<int, int>>& edges);
 
   int nodes() const { return nodes_; }
   const std::vector<Link>& links() const { return links_; }
-  int first_in(int node) const { return first_in_[static_cast<std::size_t>(node)]; }  ///< index of the first link into node
+  int first_in(int node) const {
+    return first_in_[static_cast<std::size_t>(node)];
+  }  ///< index of the first link into node
   int degree(int node) const;
   int max_degree() const;
   bool connected() const;
@@ -37,8 +42,9 @@ class Graph {
   std::vector<int> first_in_;
 };
 
-/// Builds a named graph over node positions (one column a node, the profile's length unit): "none", "ring", "ladder" (8 nodes),
-/// "path", "complete", "knn<k>", "radius<r>". Throws InputError at /network/graph for an unknown name or one that does not fit.
+/// Builds a named graph over node positions (one column a node, the profile's length unit): "none", "ring", "ladder" (8
+/// nodes), "path", "complete", "knn<k>", "radius<r>". Throws InputError at /network/graph for an unknown name or one
+/// that does not fit.
 Graph make_graph(std::string_view name, const Eigen::Matrix2Xd& positions);
 
 /// True where make_graph knows the name.

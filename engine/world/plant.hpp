@@ -31,7 +31,8 @@ class Plant {
   virtual ~Plant() = default;
   virtual const std::vector<Component>& state() const = 0;
   virtual const std::vector<Component>& input() const = 0;  ///< known inputs, may be empty
-  virtual const std::vector<ErrorGroup>& errors() const = 0;  ///< the first is the "position-like" one of the signal `error`
+  virtual const std::vector<ErrorGroup>& errors()
+      const = 0;  ///< the first is the "position-like" one of the signal `error`
   /// next = f(x, u), without noise. x, next: states; u: inputs (row k: what acted from tick k-1 to k).
   virtual void advance(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& u,
                        Eigen::Ref<Eigen::VectorXd> next) const = 0;

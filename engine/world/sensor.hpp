@@ -18,7 +18,9 @@ class Sensor {
   virtual ~Sensor() = default;
   virtual const std::vector<Component>& channels() const = 0;
   virtual const Eigen::MatrixXd& noise() const = 0;  ///< R, channels x channels, positive definite
-  virtual std::optional<Eigen::Vector2d> position() const { return std::nullopt; }  ///< in the plant's plane, its length unit
+  virtual std::optional<Eigen::Vector2d> position() const {
+    return std::nullopt;
+  }  ///< in the plant's plane, its length unit
   /// z = h(x), without noise.
   virtual void measure(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const = 0;
   /// H = dh/dx at x, channels x states.

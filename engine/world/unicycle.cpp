@@ -45,7 +45,8 @@ class UnicycleWheels final : public Plant {
   std::vector<ErrorGroup> errors_;
 };
 
-/// Odometry as the known input: x+ = x + v dt cos(theta), y+ = y + v dt sin(theta), theta+ = theta + omega dt. Metres and radians.
+/// Odometry as the known input: x+ = x + v dt cos(theta), y+ = y + v dt sin(theta), theta+ = theta + omega dt. Metres
+/// and radians.
 class Unicycle final : public Plant {
  public:
   explicit Unicycle(double dt) : dt_(dt) {}
@@ -80,18 +81,41 @@ const Registration<PlantMake> wheels({
     {"Two-wheeled robot at constant wheel speeds", "恒定轮速的两轮机器人"},
     "seed 000, (43)-(45)",
     ParamTable({
-        {.name = "kappa", .fallback = 0.017453292519943295, .unit = "rad", .minimum = 0, .exclusive_minimum = true,
-         .symbol = "κ", .meaning = {"Radians per unit of the heading state", "航向状态每单位对应的弧度"}},
-        {.name = "sR", .fallback = 10.4, .symbol = "s^R", .meaning = {"Way of the right wheel in a step", "右轮每步行程"}},
-        {.name = "sL", .fallback = 5.6, .symbol = "s^L", .meaning = {"Way of the left wheel in a step", "左轮每步行程"}},
-        {.name = "b", .fallback = 30.0, .minimum = 0, .exclusive_minimum = true, .symbol = "b",
+        {.name = "kappa",
+         .fallback = 0.017453292519943295,
+         .unit = "rad",
+         .minimum = 0,
+         .exclusive_minimum = true,
+         .symbol = "κ",
+         .meaning = {"Radians per unit of the heading state", "航向状态每单位对应的弧度"}},
+        {.name = "sR",
+         .fallback = 10.4,
+         .symbol = "s^R",
+         .meaning = {"Way of the right wheel in a step", "右轮每步行程"}},
+        {.name = "sL",
+         .fallback = 5.6,
+         .symbol = "s^L",
+         .meaning = {"Way of the left wheel in a step", "左轮每步行程"}},
+        {.name = "b",
+         .fallback = 30.0,
+         .minimum = 0,
+         .exclusive_minimum = true,
+         .symbol = "b",
          .meaning = {"Distance between the wheels", "两轮间距"}},
-        {.name = "length_unit", .type = ParamType::text, .fallback = "cm", .choices = {"cm", "m"},
+        {.name = "length_unit",
+         .type = ParamType::text,
+         .fallback = "cm",
+         .choices = {"cm", "m"},
          .meaning = {"Unit that lengths are shown in", "长度的显示单位"}},
-        {.name = "heading_unit", .type = ParamType::text, .fallback = "deg", .choices = {"deg", "rad"},
+        {.name = "heading_unit",
+         .type = ParamType::text,
+         .fallback = "deg",
+         .choices = {"deg", "rad"},
          .meaning = {"Unit that the heading is shown in", "航向的显示单位"}},
     }),
-    [](const Params& params, double) -> std::shared_ptr<const Plant> { return std::make_shared<UnicycleWheels>(params); },
+    [](const Params& params, double) -> std::shared_ptr<const Plant> {
+      return std::make_shared<UnicycleWheels>(params);
+    },
 });
 
 const Registration<PlantMake> unicycle({

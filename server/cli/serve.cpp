@@ -114,7 +114,8 @@ void add_serve(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   sub->add_flag("--no-demo", command->no_demo, "start no demo run");
   sub->add_option("--keep-days", command->keep_days, "remove finished runs older than this");
-  sub->add_option("--keep-gib", command->keep_gib, "remove the oldest finished runs, then the oldest samples, above this size (20)");
+  sub->add_option("--keep-gib", command->keep_gib,
+                  "remove the oldest finished runs, then the oldest samples, above this size (20)");
   sub->add_option("--max-runs", command->server.runs.max_runs, "runs at once, 4 without; more wait")
       ->check(CLI::Range(1, 256));
   sub->callback([command, &action] { action = [command] { return serve(*command); }; });

@@ -1,5 +1,6 @@
-/// Network steps a second of the consensus lane alone (predict, send, deliver, update; guard `clip` included) on prerecorded readings and links, beside a bare
-/// fixed-size Eigen loop of the same algebra. Thread CPU time, best of seven, interleaved. Then whole runs of the preset, for information.
+/// Network steps a second of the consensus lane alone (predict, send, deliver, update; guard `clip` included) on
+/// prerecorded readings and links, beside a bare fixed-size Eigen loop of the same algebra. Thread CPU time, best of
+/// seven, interleaved. Then whole runs of the preset, for information.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -35,7 +36,8 @@ double rate(int steps, Step&& step) {
   return steps / (cpu_seconds() - before);
 }
 
-/// The lane of preset `consensus` as a run drives it, without world, scores and frames. The plant goes round its circle, so the ring can be played for ever.
+/// The lane of preset `consensus` as a run drives it, without world, scores and frames. The plant goes round its
+/// circle, so the ring can be played for ever.
 class Lane {
  public:
   Lane() : known_(vigil::rig::knowledge_of(vigil::Scenario::preset("consensus"))) {
@@ -101,7 +103,8 @@ int main() {
     std::fprintf(stderr, "the lane or the yardstick diverged: the figures would mean nothing\n");
     return 1;
   }
-  std::printf("consensus  ours %.0f network steps/s  yardstick %.0f  ratio %.3f  (bar %.2f)\n", ours, bare, ours / bare, kBar);
+  std::printf("consensus  ours %.0f network steps/s  yardstick %.0f  ratio %.3f  (bar %.2f)\n", ours, bare, ours / bare,
+              kBar);
   const vigil::Scenario preset = vigil::Scenario::preset("consensus");
   std::uint64_t seed = 0;
   const double runs = rate(200, [&] { vigil::run_trial(preset, ++seed); });

@@ -1,4 +1,5 @@
-// Heads of HTTP requests: whatever the bytes, the parser refuses with a sentence or accepts what cannot be read in two ways.
+// Heads of HTTP requests: whatever the bytes, the parser refuses with a sentence or accepts what cannot be read in two
+// ways.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,4 +1,5 @@
-/// Any bytes as a scenario document that is run, as a patch and, split at the first line break, as a path and its value.
+/// Any bytes as a scenario document that is run, as a patch and, split at the first line break, as a path and its
+/// value.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,4 +1,5 @@
-/// The consensus filter as a method, and its variants without attack knowledge: seed 000, sections 5 to 9 of the specification.
+/// The consensus filter as a method, and its variants without attack knowledge: seed 000, sections 5 to 9 of the
+/// specification.
 #pragma once
 
 #include <memory>

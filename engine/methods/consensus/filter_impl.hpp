@@ -56,8 +56,9 @@ template <int N, int M>
 void Filter<N, M>::declare(SignalScope& scope) {
   slots_.clear();
   for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
-    slots_.push_back({scope.add(i, "feasible28", "", SignalKind::boolean), scope.add(i, "feasible29", "", SignalKind::boolean),
-                      scope.add(i, "lambda_max", "", SignalKind::scalar), scope.add(i, "lost", "", SignalKind::scalar)});
+    slots_.push_back(
+        {scope.add(i, "feasible28", "", SignalKind::boolean), scope.add(i, "feasible29", "", SignalKind::boolean),
+         scope.add(i, "lambda_max", "", SignalKind::scalar), scope.add(i, "lost", "", SignalKind::scalar)});
   }
 }
 
@@ -91,14 +92,17 @@ void Filter<N, M>::judge(int index, FaultReport& report) {
   const auto tell = [&](const char* code, const char* condition, double least, double largest, double limit) {
     std::string* text = strict ? report.stop(index, code) : report.fault(index, code);
     if (text == nullptr) return;
-    *text = fmt::format("condition {} fails at node {}, step {}: ", condition, ids_[static_cast<std::size_t>(index)], tick_);
+    *text = fmt::format("condition {} fails at node {}, step {}: ", condition, ids_[static_cast<std::size_t>(index)],
+                        tick_);
     *text += largest >= limit ? fmt::format("largest eigenvalue {:.6g}, limit {:.6g}", largest, limit)
                               : fmt::format("smallest eigenvalue {:.6g}, which must be above 0", least);
   };
   const auto last = node.phi_values.size() - 1;
-  if (!node.feasible28) tell("infeasible_28", "(28)", node.phi_values[0], node.phi_values[last], settings_.constants.limit28());
+  if (!node.feasible28)
+    tell("infeasible_28", "(28)", node.phi_values[0], node.phi_values[last], settings_.constants.limit28());
   if (strict && !node.feasible28) return;  // without a guard (29) fails in its wake
-  if (!node.feasible29) tell("infeasible_29", "(29)", node.least_predicted, node.lambda_predicted, settings_.constants.limit29());
+  if (!node.feasible29)
+    tell("infeasible_29", "(29)", node.least_predicted, node.lambda_predicted, settings_.constants.limit29());
 }
 
 template <int N, int M>
@@ -112,7 +116,8 @@ Received<N> Filter<N, M>::receive(int index, std::span<const Delivery> inbox) {
   for (int l = first; l < first + graph_.degree(index); ++l) {
     const auto link = static_cast<std::size_t>(l);
     const LinkRates& rate = rates_[link];
-    // The neighbour's bound travels beside the packet and is not attacked: seed 000 hands it round, section 5 of the specification.
+    // The neighbour's bound travels beside the packet and is not attacked: seed 000 hands it round, section 5 of the
+    // specification.
     received.neighbours += (1 - rate.dos) * at(graph_.links()[link].from).Pp;
     received.attack += rate.fdi * rate.delta * rate.delta;
     const Delivery& delivery = inbox[link];
@@ -136,7 +141,8 @@ Received<N> Filter<N, M>::receive(int index, std::span<const Delivery> inbox) {
 }
 
 template <int N, int M>
-void Filter<N, M>::observe(NodeState& node, int index, const Eigen::VectorXd& reading, typename NodeState::MatMN& H) const {
+void Filter<N, M>::observe(NodeState& node, int index, const Eigen::VectorXd& reading,
+                           typename NodeState::MatMN& H) const {
   const Sensor& sensor = *sensors_[static_cast<std::size_t>(index)];
   node.measured = reading.allFinite();  // a row that is missing makes the whole reading missing: section 13
   if (!node.measured) return;
@@ -156,8 +162,9 @@ void Filter<N, M>::update(const Readings& readings, std::span<const Delivery> in
     const Received<N> received = receive(i, inbox);
     if (!consensus::update(node, H, received, settings_.constants, graph_.degree(i))) {
       if (std::string* text = report.stop(i, "diverged")) {
-        *text = fmt::format("node {} diverged at step {}: its bound is not finite or the innovation's matrix cannot be inverted",
-                            ids_[static_cast<std::size_t>(i)], tick_);
+        *text = fmt::format(
+            "node {} diverged at step {}: its bound is not finite or the innovation's matrix cannot be inverted",
+            ids_[static_cast<std::size_t>(i)], tick_);
       }
       return;
     }
@@ -225,7 +232,11 @@ std::vector<OwnMetric> Filter<N, M>::metrics() const {
   const bool holds = min_eigenvalue_ > low && max_eigenvalue_ < constants.limit28();
   const bool any = max_eigenvalue_ >= min_eigenvalue_;
   return {{-1, "first_infeasible_step", first_infeasible_ > 0 ? static_cast<double>(first_infeasible_) : none, false},
-          {-1, "bound_guaranteed", naive() ? none : guaranteed ? 1.0 : 0.0, true},
+          {-1, "bound_guaranteed",
+           naive()      ? none
+           : guaranteed ? 1.0
+                        : 0.0,
+           true},
           {-1, "theorem2_holds", any ? (holds ? 1.0 : 0.0) : none, true},
           {-1, "theorem2_min_eig", any ? min_eigenvalue_ : none, false},
           {-1, "theorem2_max_eig", any ? max_eigenvalue_ : none, false}};

@@ -1,5 +1,6 @@
-/// The consensus filter under mixed DoS and FDI attacks as free functions over plain structs: seed 000, (3), (7), (26)-(30), with the
-/// guards and bound modes of the specification, sections 5 to 7. Sizes are template arguments so that the common ones are fixed.
+/// The consensus filter under mixed DoS and FDI attacks as free functions over plain structs: seed 000, (3), (7),
+/// (26)-(30), with the guards and bound modes of the specification, sections 5 to 7. Sizes are template arguments so
+/// that the common ones are fixed.
 #pragma once
 
 #include <Eigen/Dense>
@@ -15,11 +16,11 @@ enum class Bound { paper, corrected, tight };
 
 /// Constants of the filter, the same at every node.
 struct Constants {
-  double tau = 0.01;    ///< consensus strength: C = tau * Pp
-  double sigma = 0.1;   ///< (28)
-  double beta = 0.1;    ///< (29)
-  double eps = 0.3;     ///< Young's parameter, 0 < eps < 1/d_max
-  double rho = 0.9;     ///< clip at this share of the limits
+  double tau = 0.01;   ///< consensus strength: C = tau * Pp
+  double sigma = 0.1;  ///< (28)
+  double beta = 0.1;   ///< (29)
+  double eps = 0.3;    ///< Young's parameter, 0 < eps < 1/d_max
+  double rho = 0.9;    ///< clip at this share of the limits
   Guard guard = Guard::clip;
   Bound bound = Bound::paper;
 
@@ -37,9 +38,9 @@ struct Node {
   using MatMN = SmallMatrix<M, N>;
   using MatNM = SmallMatrix<N, M>;
 
-  VecN x;             ///< estimate, x(k|k)
-  MatN Phi;           ///< bound, Phi(k|k), raw as (27) gives it
-  VecN phi_values;    ///< eigenvalues of Phi, ascending
+  VecN x;           ///< estimate, x(k|k)
+  MatN Phi;         ///< bound, Phi(k|k), raw as (27) gives it
+  VecN phi_values;  ///< eigenvalues of Phi, ascending
   MatN phi_vectors;
 
   VecN xp;            ///< prediction, x(k+1|k)
@@ -93,19 +94,23 @@ inline Multipliers multipliers(Bound bound, int degree, double c_norm) {
   if (degree == 0) return {};
   const double grown = 1.0 + 2.0 * degree;
   switch (bound) {
-    case Bound::paper: return {grown, 3, 3};
-    case Bound::corrected: return {grown, grown, grown};
-    case Bound::tight: break;
+    case Bound::paper:
+      return {grown, 3, 3};
+    case Bound::corrected:
+      return {grown, grown, grown};
+    case Bound::tight:
+      break;
   }
   const double w = std::max(1e-6, std::min(c_norm, 1 / grown));
   return {1 / (1 - 2 * degree * w), 1 / w, 1 / w};
 }
 
-/// True where theorem 1's bound holds in this mode for this degree: (24) and (35), (36) are wrong for two neighbours and more.
+/// True where theorem 1's bound holds in this mode for this degree: (24) and (35), (36) are wrong for two neighbours
+/// and more.
 inline bool bound_is_valid(Bound bound, int degree) { return bound != Bound::paper || degree <= 1; }
 
-/// Steps 2 to 5: from Phi(k|k) and F to the guarded prediction bound (26), the gain C and M. The conditions (28), (29) are judged before
-/// the guard. Returns false where the result is not finite.
+/// Steps 2 to 5: from Phi(k|k) and F to the guarded prediction bound (26), the gain C and M. The conditions (28), (29)
+/// are judged before the guard. Returns false where the result is not finite.
 template <int N, int M>
 bool predict_bound(Node<N, M>& node, const typename Node<N, M>::MatN& F, const Constants& constants, int degree) {
   using VecN = typename Node<N, M>::VecN;
@@ -159,16 +164,17 @@ bool predict_bound(Node<N, M>& node, const typename Node<N, M>::MatN& F, const C
 /// What a node got from its neighbours in this step.
 template <int N>
 struct Received {
-  SmallMatrix<N, 1> pull;         ///< sum over links that delivered of (received - own prediction), heading wrapped: (7)
-  SmallMatrix<N, N> neighbours;   ///< sum over all links of (1 - phi-bar) Pp_j
-  double attack = 0;              ///< sum over all links of gamma-bar delta^2
-  int delivered = 0;              ///< n_i
+  SmallMatrix<N, 1> pull;        ///< sum over links that delivered of (received - own prediction), heading wrapped: (7)
+  SmallMatrix<N, N> neighbours;  ///< sum over all links of (1 - phi-bar) Pp_j
+  double attack = 0;             ///< sum over all links of gamma-bar delta^2
+  int delivered = 0;             ///< n_i
 };
 
-/// Steps 8 to 16: gain (30), estimate (7), bound (27). `node.innovation` holds z - h(xp) where `node.measured`; H is the Jacobian there.
-/// Returns false where S cannot be inverted or the bound is not finite.
+/// Steps 8 to 16: gain (30), estimate (7), bound (27). `node.innovation` holds z - h(xp) where `node.measured`; H is
+/// the Jacobian there. Returns false where S cannot be inverted or the bound is not finite.
 template <int N, int M>
-bool update(Node<N, M>& node, const typename Node<N, M>::MatMN& H, const Received<N>& received, const Constants& constants, int degree) {
+bool update(Node<N, M>& node, const typename Node<N, M>::MatMN& H, const Received<N>& received,
+            const Constants& constants, int degree) {
   using Types = Node<N, M>;
   const Multipliers m = multipliers(constants.bound, degree, node.c_norm);
   const auto n = node.x.size();

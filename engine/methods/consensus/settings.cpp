@@ -13,8 +13,11 @@ void check_delta(const Params& params, const std::vector<LinkRates>& rates) {
   for (const LinkRates& rate : rates) norm = std::max(norm, rate.delta);
   const double delta = params.real("delta");
   if (delta < norm * 0.999) {
-    throw InputError("/delta", fmt::format("delta is {}; the adversary injects vectors of norm up to {}, so the bound would not hold", delta, norm),
-                     fmt::format(">= {}", norm));
+    throw InputError(
+        "/delta",
+        fmt::format("delta is {}; the adversary injects vectors of norm up to {}, so the bound would not hold", delta,
+                    norm),
+        fmt::format(">= {}", norm));
   }
 }
 
@@ -35,22 +38,31 @@ Settings read_settings(const Params& params, int states, const Graph& graph, con
   } else {
     constants.eps = params.real("eps");
     if (constants.eps * d_max >= 1) {
-      throw InputError("/eps", fmt::format("eps is {}; with a largest degree of {} it must lie in (0, {:.6g})", constants.eps, d_max, 1.0 / d_max),
+      throw InputError("/eps",
+                       fmt::format("eps is {}; with a largest degree of {} it must lie in (0, {:.6g})", constants.eps,
+                                   d_max, 1.0 / d_max),
                        fmt::format("0 < eps < {:.6g}", 1.0 / d_max));
     }
   }
   const std::string guard = params.text("guard");
-  constants.guard = guard == "clip" ? Guard::clip : guard == "strict" ? Guard::strict : guard == "none" ? Guard::none : Guard::adapt;
+  constants.guard = guard == "clip"     ? Guard::clip
+                    : guard == "strict" ? Guard::strict
+                    : guard == "none"   ? Guard::none
+                                        : Guard::adapt;
   const std::string bound = params.text("bound");
   constants.bound = bound == "paper" ? Bound::paper : bound == "corrected" ? Bound::corrected : Bound::tight;
   const std::string mode = params.text("mode");
-  settings.mode = mode == "filter" ? Mode::filter : mode == "drop" ? Mode::drop : mode == "naive_hold" ? Mode::naive_hold : Mode::naive_zero;
+  settings.mode = mode == "filter"       ? Mode::filter
+                  : mode == "drop"       ? Mode::drop
+                  : mode == "naive_hold" ? Mode::naive_hold
+                                         : Mode::naive_zero;
   settings.knows_rates = params.boolean("knows_rates");
   if (params.given("phibar")) settings.phibar = params.real("phibar");
   if (params.given("gammabar")) settings.gammabar = params.real("gammabar");
   if (params.given("delta")) settings.delta = params.real("delta");
   if (settings.phibar.value_or(0) + settings.gammabar.value_or(0) > 1) {
-    throw InputError("/gammabar", "phibar + gammabar is above 1; a channel has at most one of the two", "phibar + gammabar <= 1");
+    throw InputError("/gammabar", "phibar + gammabar is above 1; a channel has at most one of the two",
+                     "phibar + gammabar <= 1");
   }
   check_delta(params, rates);
   settings.U = params.square("U", states);

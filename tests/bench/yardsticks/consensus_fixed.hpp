@@ -1,5 +1,6 @@
-/// The bare loop that the consensus lane is measured against: eight nodes, three states, two channels, two to four neighbours, jammed and falsified
-/// links, the bounded update of seed 000 with plain fixed-size inverses (four 3x3 and one 2x2 a node), no guard, no records, no interface.
+/// The bare loop that the consensus lane is measured against: eight nodes, three states, two channels, two to four
+/// neighbours, jammed and falsified links, the bounded update of seed 000 with plain fixed-size inverses (four 3x3 and
+/// one 2x2 a node), no guard, no records, no interface.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,15 +12,17 @@
 namespace yardstick {
 
 constexpr int kNodes = 8;
-constexpr int kRing = 512;   ///< prerecorded steps; the loop starts again from its initial state after them
+constexpr int kRing = 512;  ///< prerecorded steps; the loop starts again from its initial state after them
 constexpr int kMostLinks = 4;
 
 /// Constants for which the unguarded recursion stays bounded over the ring: the cost is that of any others.
 constexpr double kSigma = 0.01, kBeta = 0.01, kEps = 0.2, kTau = 0.01, kJammed = 0.1, kFalsified = 0.1, kDelta = 0.2;
 constexpr double kOwn = 1.2, kSpeed = 0.05, kTurn = 0.02, kFocalU = 9.0213283 / 2.105, kFocalV = 9.0250141 / 2.105;
 
-inline const std::array<std::vector<int>, kNodes> kNeighbours{{{1, 7, 4, 2}, {0, 2, 5}, {1, 3, 6, 0}, {2, 4, 7}, {3, 5, 0, 6}, {4, 6, 1}, {5, 7, 2, 4}, {6, 0, 3}}};
-inline const std::array<Eigen::Vector2d, kNodes> kCameras{{{0.6, 0.6}, {0.6, 1.8}, {1.2, 1.8}, {1.8, 1.8}, {2.4, 1.8}, {2.4, 1.6}, {1.8, 1.2}, {1.2, 1.2}}};
+inline const std::array<std::vector<int>, kNodes> kNeighbours{
+    {{1, 7, 4, 2}, {0, 2, 5}, {1, 3, 6, 0}, {2, 4, 7}, {3, 5, 0, 6}, {4, 6, 1}, {5, 7, 2, 4}, {6, 0, 3}}};
+inline const std::array<Eigen::Vector2d, kNodes> kCameras{
+    {{0.6, 0.6}, {0.6, 1.8}, {1.2, 1.8}, {1.8, 1.8}, {2.4, 1.8}, {2.4, 1.6}, {1.8, 1.2}, {1.2, 1.2}}};
 
 /// A small deterministic source of inputs.
 class Source {
@@ -40,7 +43,8 @@ class Source {
 
 struct Inputs {
   std::vector<std::array<Eigen::Vector2d, kNodes>> readings{kRing};
-  std::vector<std::array<std::array<std::uint8_t, kMostLinks>, kNodes>> links{kRing};  ///< 0 clean, 1 jammed, 2 falsified
+  std::vector<std::array<std::array<std::uint8_t, kMostLinks>, kNodes>> links{
+      kRing};  ///< 0 clean, 1 jammed, 2 falsified
   std::vector<Eigen::Vector3d> injected{kRing};
 };
 
@@ -134,7 +138,8 @@ class FixedLoop {
     const Matrix3 G = B - K * H;
     const Eigen::Matrix2d noise = VV_ * (kOwn / kBeta) + R_;
     bound_[i] = kOwn * (G * M * G.transpose()) +
-                C * (3 * (1 - kJammed) * around + (3 * degree * kDelta * kDelta * kFalsified) * Matrix3::Identity()) * C.transpose() +
+                C * (3 * (1 - kJammed) * around + (3 * degree * kDelta * kDelta * kFalsified) * Matrix3::Identity()) *
+                    C.transpose() +
                 K * noise * K.transpose();
     x_[i] = x + K * (inputs_.readings[k][i] - seen(x, kCameras[i])) + C * pull;
   }

@@ -1,17 +1,18 @@
 /// Each attack by itself: frequencies, norms, draws, composition, bad input. Sections 4 and 13.
-#include "engine/adversary/attack.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
+
+#include "engine/adversary/attack.hpp"
 
 namespace vigil {
 namespace {
 
 constexpr int kLinks = 20, kTicks = 4000;
 
-std::unique_ptr<Attack> make(const std::string& type, const Json& given, const std::string& id = "links", std::uint64_t seed = 1, int message = 3) {
+std::unique_ptr<Attack> make(const std::string& type, const Json& given, const std::string& id = "links",
+                             std::uint64_t seed = 1, int message = 3) {
   const auto* entry = Registry<AttackMake>::find(type);
   std::vector<Problem> problems;
   const Json values = entry->params.complete(given, "", problems);
@@ -25,7 +26,8 @@ std::vector<int> all_links() {
   return links;
 }
 
-LinkEffects effects_of(const std::vector<const Attack*>& attacks, std::int64_t k, const std::vector<int>& links = all_links()) {
+LinkEffects effects_of(const std::vector<const Attack*>& attacks, std::int64_t k,
+                       const std::vector<int>& links = all_links()) {
   LinkEffects effects;
   effects.resize(3, kLinks);
   effects.clear();
@@ -64,7 +66,8 @@ void expect_share(int hits, double probability) {
 }
 
 TEST(DosFdi, HasItsFrequencies) {
-  const std::vector<std::pair<double, double>> rates{{0.2, 0.2}, {0, 0.8}, {0.8, 0}, {0.5, 0.5}, {1, 0}, {0, 1}, {0, 0}, {0.01, 0.002}};
+  const std::vector<std::pair<double, double>> rates{{0.2, 0.2}, {0, 0.8}, {0.8, 0}, {0.5, 0.5},
+                                                     {1, 0},     {0, 1},   {0, 0},   {0.01, 0.002}};
   for (const auto& [pdos, pfdi] : rates) {
     const auto attack = make("dos_fdi", {{"pdos", pdos}, {"pfdi", pfdi}});
     const Counts counts = count(*attack, 1.5 * std::sqrt(2.0));
@@ -94,11 +97,14 @@ TEST(DosFdi, InjectsTheSineOfItsSignal) {
 
 // A draw belongs to its link, tick, attack and seed: which other links are attacked, and how often, does not matter.
 TEST(DosFdi, KeepsItsDraws) {
-  const auto weak = make("dos_fdi", {{"pdos", 0.2}, {"pfdi", 0.2}}), strong = make("dos_fdi", {{"pdos", 0.4}, {"pfdi", 0.2}});
-  const auto other_seed = make("dos_fdi", Json::object(), "links", 2), other_name = make("dos_fdi", Json::object(), "second");
+  const auto weak = make("dos_fdi", {{"pdos", 0.2}, {"pfdi", 0.2}}),
+             strong = make("dos_fdi", {{"pdos", 0.4}, {"pfdi", 0.2}});
+  const auto other_seed = make("dos_fdi", Json::object(), "links", 2),
+             other_name = make("dos_fdi", Json::object(), "second");
   int differs_by_seed = 0, differs_by_name = 0;
   for (std::int64_t k = 1; k <= 200; ++k) {
-    const LinkEffects all = effects_of({weak.get()}, k), stronger = effects_of({strong.get()}, k), one = effects_of({weak.get()}, k, {13});
+    const LinkEffects all = effects_of({weak.get()}, k), stronger = effects_of({strong.get()}, k),
+                      one = effects_of({weak.get()}, k, {13});
     EXPECT_EQ(all.state[13], one.state[13]);
     EXPECT_EQ(all.injected.col(13), one.injected.col(13));
     EXPECT_EQ(one.state[12], LinkState::clean);
@@ -128,7 +134,8 @@ TEST(Attacks, JamWinsInAnyOrder) {
   int both = 0;
   for (std::int64_t k = 1; k <= 300; ++k) {
     const LinkEffects jam_only = effects_of({jam.get()}, k), bias_only = effects_of({bias.get()}, k);
-    for (const auto& order : {std::vector<const Attack*>{jam.get(), bias.get()}, std::vector<const Attack*>{bias.get(), jam.get()}}) {
+    for (const auto& order :
+         {std::vector<const Attack*>{jam.get(), bias.get()}, std::vector<const Attack*>{bias.get(), jam.get()}}) {
       const LinkEffects effects = effects_of(order, k);
       for (std::size_t l = 0; l < kLinks; ++l) {
         const auto link = static_cast<Eigen::Index>(l);
@@ -174,7 +181,8 @@ TEST(Attacks, AreValues) {
   for (const auto& entry : Registry<AttackMake>::all()) {
     const auto attack = make(entry.id, Json::object());
     const auto copy = attack->clone();
-    for (std::int64_t k = 1; k <= 50; ++k) EXPECT_EQ(effects_of({attack.get()}, k).state, effects_of({copy.get()}, k).state) << entry.id;
+    for (std::int64_t k = 1; k <= 50; ++k)
+      EXPECT_EQ(effects_of({attack.get()}, k).state, effects_of({copy.get()}, k).state) << entry.id;
   }
 }
 
@@ -199,11 +207,13 @@ INSTANTIATE_TEST_SUITE_P(
     Attacks, BadAttack,
     testing::Values(Bad{"dos_fdi", R"({"pdos":0.6,"pfdi":0.41})", "/pfdi"}, Bad{"dos_fdi", R"({"pdos":-0.1})", "/pdos"},
                     Bad{"dos_fdi", R"({"pfdi":1.01})", "/pfdi"}, Bad{"dos_fdi", R"({"delta":2.119})", "/delta"},
-                    Bad{"dos_fdi", R"({"delta":2.12,"xi_scale":2})", "/delta"}, Bad{"dos_fdi", R"({"xi_dir":[1.5,1.5]})", "/xi_dir"},
-                    Bad{"dos_fdi", R"({"xi_dir":[1.5,1.5,0,0]})", "/xi_dir"}, Bad{"dos_fdi", R"({"xi_dir":"up"})", "/xi_dir"},
-                    Bad{"dos_fdi", R"({"xi_scale":-1})", "/xi_scale"}, Bad{"dos_fdi", R"({"s_std":-1})", "/s_std"},
-                    Bad{"dos_fdi", R"({"p_dos":0.1})", "/p_dos"}, Bad{"dos", R"({"probability":2})", "/probability"},
-                    Bad{"bias", R"({"vector":[1]})", "/vector"}, Bad{"bias", R"({"probability":null})", "/probability"}));
+                    Bad{"dos_fdi", R"({"delta":2.12,"xi_scale":2})", "/delta"},
+                    Bad{"dos_fdi", R"({"xi_dir":[1.5,1.5]})", "/xi_dir"},
+                    Bad{"dos_fdi", R"({"xi_dir":[1.5,1.5,0,0]})", "/xi_dir"},
+                    Bad{"dos_fdi", R"({"xi_dir":"up"})", "/xi_dir"}, Bad{"dos_fdi", R"({"xi_scale":-1})", "/xi_scale"},
+                    Bad{"dos_fdi", R"({"s_std":-1})", "/s_std"}, Bad{"dos_fdi", R"({"p_dos":0.1})", "/p_dos"},
+                    Bad{"dos", R"({"probability":2})", "/probability"}, Bad{"bias", R"({"vector":[1]})", "/vector"},
+                    Bad{"bias", R"({"probability":null})", "/probability"}));
 
 TEST(DosFdi, TakesTheRoundedBound) {
   const auto attack = make("dos_fdi", {{"delta", 2.12}});  // the paper's: 1.5 sqrt(2) rounded down by less than 0.1 %

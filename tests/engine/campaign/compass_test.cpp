@@ -43,13 +43,16 @@ TEST(Compass, GuaranteesItsBoundInValidModesOnly) {
   const Json pairs = Json::parse(R"({"network":{"graph":"edges","edges":[[1,2],[3,4],[5,6],[7,8]]}})");
   EXPECT_EQ(Results(with_bound("paper").patched(pairs), trials).row("consensus", "bound_guaranteed").min, 1);
   EXPECT_EQ(Results(with_bound("paper"), trials).row("consensus", "bound_guaranteed").max, 0);
-  expect_agrees(Results(with_bound("tight"), runs(150, 500)).row("consensus", "rmse_position"), {0.3655, 0.0012}, "tight");
+  expect_agrees(Results(with_bound("tight"), runs(150, 500)).row("consensus", "rmse_position"), {0.3655, 0.0012},
+                "tight");
 }
 
-// With M = 3000 runs of 10 steps at most 1.05; with fewer, inflated by about (1 + sqrt(3/M))^2: relative to 3000 runs 1.13 at M = 300.
+// With M = 3000 runs of 10 steps at most 1.05; with fewer, inflated by about (1 + sqrt(3/M))^2: relative to 3000
+// runs 1.13 at M = 300.
 TEST(Compass, BoundBounds) {
   const int trials = runs(300, 3000);
-  const double limit = trials >= 3000 ? 1.05 : 1.05 * std::pow((1 + std::sqrt(3.0 / trials)) / (1 + std::sqrt(3.0 / 3000)), 2);
+  const double limit =
+      trials >= 3000 ? 1.05 : 1.05 * std::pow((1 + std::sqrt(3.0 / trials)) / (1 + std::sqrt(3.0 / 3000)), 2);
   const Results results(with_bound("corrected").with("time.steps", 10), trials);
   EXPECT_LE(results.mean("consensus", "bound_ratio_max"), limit);
   EXPECT_GT(results.mean("consensus", "bound_ratio_max"), 0.5) << "a bound, not a mountain";

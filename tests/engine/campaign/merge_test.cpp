@@ -24,7 +24,8 @@ std::vector<TrialResult> on_threads(const Scenario& scenario, int trials, int th
   std::vector<std::thread> pool;
   for (int t = 0; t < threads; ++t) {
     pool.emplace_back([&, t] {
-      for (int i = t; i < trials; i += threads) results[static_cast<std::size_t>(i)] = run_trial(scenario, static_cast<std::uint64_t>(1 + i));
+      for (int i = t; i < trials; i += threads)
+        results[static_cast<std::size_t>(i)] = run_trial(scenario, static_cast<std::uint64_t>(1 + i));
     });
   }
   for (std::thread& thread : pool) thread.join();
@@ -62,11 +63,13 @@ TrialResult with_values(const std::vector<std::pair<std::string, double>>& value
   return trial;
 }
 
-// Pooled roots: sqrt(mean of squares), and by the delta method se = se(mean of squares) / (2 root). All else: plain means.
+// Pooled roots: sqrt(mean of squares), and by the delta method se = se(mean of squares) / (2 root). All else: plain
+// means.
 TEST(Campaign, PoolsRootsAndAveragesTheRest) {
   const std::vector<double> values{1.5, 2.5, 0.5, 4, 3};
   CampaignTable table;
-  for (const double v : values) table.add(with_values({{"rmse_position", v}, {"rms_error", v}, {"nees_mean", v}, {"armse", v}}));
+  for (const double v : values)
+    table.add(with_values({{"rmse_position", v}, {"rms_error", v}, {"nees_mean", v}, {"armse", v}}));
   double mean = 0, mean_square = 0;
   for (const double v : values) {
     mean += v / 5;

@@ -32,7 +32,8 @@ class Results {
       for (const FaultCount& fault : trial.faults) stopped_ += fault.stopped ? 1 : 0;
       table.add(trial);
     }
-    for (const MetricSummary& row : table.summary()) rows_[row.key.lane + " " + row.key.name + " " + row.key.node] = row;
+    for (const MetricSummary& row : table.summary())
+      rows_[row.key.lane + " " + row.key.name + " " + row.key.node] = row;
   }
 
   const MetricSummary& row(const std::string& lane, const std::string& name, const std::string& node = "") const {
@@ -54,7 +55,8 @@ class Results {
 /// Within four combined standard errors; a figure printed without one has the error of the runs it was made from.
 inline void expect_agrees(const MetricSummary& row, const Figure& expected, const std::string& what) {
   const double combined = std::hypot(row.se, expected.error);
-  EXPECT_LE(std::abs(row.mean - expected.value), 4 * combined) << what << ": " << row.mean << " +- " << row.se << ", expected " << expected.value;
+  EXPECT_LE(std::abs(row.mean - expected.value), 4 * combined)
+      << what << ": " << row.mean << " +- " << row.se << ", expected " << expected.value;
 }
 
 /// A scenario with some lanes only: a lane's draws do not depend on the others.

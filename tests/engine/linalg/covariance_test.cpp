@@ -37,7 +37,8 @@ TEST(SymmetricRoot, TakesSingularMatrices) {
 TEST(ReadCovariance, TakesEveryForm) {
   EXPECT_EQ(read_covariance(2.5, 2, "/Q", Definiteness::definite), (Eigen::Matrix2d() << 2.5, 0, 0, 2.5).finished());
   EXPECT_EQ(read_covariance({1, 0}, 2, "/Q", Definiteness::semidefinite), (Eigen::Matrix2d() << 1, 0, 0, 0).finished());
-  EXPECT_EQ(read_covariance(Json::parse("[[2,1],[1,2]]"), 2, "/Q", Definiteness::definite), (Eigen::Matrix2d() << 2, 1, 1, 2).finished());
+  EXPECT_EQ(read_covariance(Json::parse("[[2,1],[1,2]]"), 2, "/Q", Definiteness::definite),
+            (Eigen::Matrix2d() << 2, 1, 1, 2).finished());
   EXPECT_EQ(read_covariance(0, 3, "/Q", Definiteness::semidefinite), Eigen::Matrix3d::Zero());
 }
 
@@ -63,9 +64,10 @@ TEST_P(BadCovariance, IsRefusedAtItsPointer) {
 INSTANTIATE_TEST_SUITE_P(
     Covariance, BadCovariance,
     testing::Values(Bad{"[1,2]", 3, Definiteness::semidefinite}, Bad{"[1,2,3,4]", 3, Definiteness::semidefinite},
-                    Bad{"[[1,2],[0,1]]", 2, Definiteness::semidefinite}, Bad{"[[1,0],[0]]", 2, Definiteness::semidefinite},
-                    Bad{"[1,-1e-3]", 2, Definiteness::semidefinite}, Bad{"[[1,2],[2,1]]", 2, Definiteness::semidefinite},
-                    Bad{"[1,0]", 2, Definiteness::definite}, Bad{"0", 2, Definiteness::definite}, Bad{"\"I\"", 2, Definiteness::semidefinite},
+                    Bad{"[[1,2],[0,1]]", 2, Definiteness::semidefinite},
+                    Bad{"[[1,0],[0]]", 2, Definiteness::semidefinite}, Bad{"[1,-1e-3]", 2, Definiteness::semidefinite},
+                    Bad{"[[1,2],[2,1]]", 2, Definiteness::semidefinite}, Bad{"[1,0]", 2, Definiteness::definite},
+                    Bad{"0", 2, Definiteness::definite}, Bad{"\"I\"", 2, Definiteness::semidefinite},
                     Bad{"[]", 2, Definiteness::semidefinite}, Bad{"[1,null]", 2, Definiteness::semidefinite},
                     Bad{"null", 2, Definiteness::semidefinite}, Bad{"{}", 2, Definiteness::semidefinite}));
 

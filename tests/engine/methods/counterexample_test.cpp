@@ -1,5 +1,5 @@
-/// Why the paper's theorem is wrong for two neighbours and more: the two one-step counterexamples of section 7, on the filter itself. Complete graph,
-/// d = 7, K = 0 in effect (R = 1e14 I), C = I/7, U = 0, Phi_0 = 1e-9 I.
+/// Why the paper's theorem is wrong for two neighbours and more: the two one-step counterexamples of section 7, on the
+/// filter itself. Complete graph, d = 7, K = 0 in effect (R = 1e14 I), C = I/7, U = 0, Phi_0 = 1e-9 I.
 #include <gtest/gtest.h>
 
 #include "tests/engine/methods/linear_plant.hpp"
@@ -17,8 +17,8 @@ Knowledge network(double q) {
   std::vector<std::pair<int, int>> edges;
   for (int i = 0; i < kNodes; ++i) {
     known.nodes.push_back(std::to_string(i + 1));
-    known.sensors.push_back(
-        std::make_shared<rig::LinearSensor>(Eigen::MatrixXd::Identity(2, 3), Eigen::MatrixXd(1e14 * Eigen::Matrix2d::Identity())));
+    known.sensors.push_back(std::make_shared<rig::LinearSensor>(Eigen::MatrixXd::Identity(2, 3),
+                                                                Eigen::MatrixXd(1e14 * Eigen::Matrix2d::Identity())));
     for (int j = 0; j < i; ++j) edges.emplace_back(j, i);
   }
   known.graph = Graph(kNodes, edges);
@@ -32,7 +32,8 @@ Knowledge network(double q) {
 /// The filter whose gain C is I/7 at the first step.
 std::unique_ptr<Method> filter(const Knowledge& known, const std::string& bound) {
   const double predicted = 1 / (1 / kPhi - 1.1 * 0.1) + known.Q(0, 0);
-  const Json params = {{"tau", 1 / (kDegree * predicted)}, {"eps", 0.1}, {"U", 0}, {"V", 0.1}, {"guard", "strict"}, {"bound", bound}};
+  const Json params = {
+      {"tau", 1 / (kDegree * predicted)}, {"eps", 0.1}, {"U", 0}, {"V", 0.1}, {"guard", "strict"}, {"bound", bound}};
   return consensus::make_filter(rig::completed("consensus_ekf", params), known);
 }
 
@@ -45,8 +46,9 @@ Eigen::MatrixXd bound_after_one_step(const Knowledge& known, const std::string& 
   return rig::bound(*method, 0, 3);
 }
 
-// (a) No attack. Every estimate is the mean of seven that miss the same process noise, so the error is that noise: covariance Q. The trace of its
-// sample covariance over 20 000 trials is within 1.2 % (4 standard errors of sqrt(2/3/20000)).
+// (a) No attack. Every estimate is the mean of seven that miss the same process noise, so the error is that noise:
+// covariance Q. The trace of its sample covariance over 20 000 trials is within 1.2 % (4 standard errors of
+// sqrt(2/3/20000)).
 TEST(Counterexample, CommonProcessNoiseBreaksThePaperBound) {
   const Knowledge known = network(0.5);
   const Draws noise(5, "process");

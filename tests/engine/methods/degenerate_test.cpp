@@ -6,7 +6,9 @@
 namespace vigil {
 namespace {
 
-Knowledge default_knowledge(const char* graph = "ladder") { return rig::knowledge_of(Scenario::preset("consensus").with("network.graph", graph), 2); }
+Knowledge default_knowledge(const char* graph = "ladder") {
+  return rig::knowledge_of(Scenario::preset("consensus").with("network.graph", graph), 2);
+}
 
 std::unique_ptr<Method> filter(const Knowledge& known, const Json& params = Json::object()) {
   return consensus::make_filter(rig::completed("consensus_ekf", params), known);
@@ -16,7 +18,8 @@ const Eigen::Vector3d kTruth(158, 70, 9.167);
 
 Readings nothing(const Knowledge& known) {
   Readings readings;
-  for (const auto& sensor : known.sensors) readings.emplace_back(Eigen::VectorXd::Constant(sensor->size(), std::nan("")));
+  for (const auto& sensor : known.sensors)
+    readings.emplace_back(Eigen::VectorXd::Constant(sensor->size(), std::nan("")));
   return readings;
 }
 
@@ -41,7 +44,8 @@ TEST(Degenerate, AMissingReadingMeansNoGain) {
   EXPECT_NE(rig::mean(*twin, 4, 3), rig::mean(*method, 4, 3));
 }
 
-// A node without neighbours: m0 = 1, the other terms vanish. With U and V nearly zero and sigma, beta small it is the ordinary filter.
+// A node without neighbours: m0 = 1, the other terms vanish. With U and V nearly zero and sigma, beta small it is the
+// ordinary filter.
 TEST(Degenerate, ALoneNodeIsAnOrdinaryFilter) {
   Knowledge known = default_knowledge("none");
   auto lone = filter(known, {{"sigma", 1e-9}, {"beta", 1e-9}, {"U", 0}, {"V", 0}});
@@ -80,9 +84,11 @@ TEST(Degenerate, SingularNoiseIsLegal) {
     if (certain_start) known.P0.setZero();
     auto method = filter(known);
     FaultTable faults;
-    for (int k = 1; k <= 10; ++k) rig::tick(*method, known, rig::readings_at(known, kTruth, 1, k), rig::Links(known), faults, k);
+    for (int k = 1; k <= 10; ++k)
+      rig::tick(*method, known, rig::readings_at(known, kTruth, 1, k), rig::Links(known), faults, k);
     EXPECT_FALSE(faults.stopped());
-    for (int i = 0; i < 8; ++i) EXPECT_TRUE(rig::mean(*method, i, 3).allFinite() && rig::bound(*method, i, 3).allFinite());
+    for (int i = 0; i < 8; ++i)
+      EXPECT_TRUE(rig::mean(*method, i, 3).allFinite() && rig::bound(*method, i, 3).allFinite());
     const auto first = method->metrics().front();
     EXPECT_EQ(first.name, "first_infeasible_step");
     if (certain_start) {
@@ -96,7 +102,8 @@ TEST(Degenerate, ACameraAtTheRobotIsFine) {
   known.estimates.colwise() = Eigen::Vector3d(60 - 8, 60, 0);  // predicted exactly under camera 1
   auto method = filter(known);
   FaultTable faults;
-  for (int k = 1; k <= 3; ++k) rig::tick(*method, known, rig::readings_at(known, Eigen::Vector3d(60, 60, 9), 1, k), rig::Links(known), faults, k);
+  for (int k = 1; k <= 3; ++k)
+    rig::tick(*method, known, rig::readings_at(known, Eigen::Vector3d(60, 60, 9), 1, k), rig::Links(known), faults, k);
   EXPECT_FALSE(faults.stopped());
   EXPECT_TRUE(rig::mean(*method, 0, 3).allFinite());
 }
@@ -143,7 +150,8 @@ TEST(None, DivergesWithoutCrashingAndSaysSo) {
   FaultTable table;
   int k = 0;
   for (; k < 5000 && !table.stopped(); ++k) {
-    rig::tick(*method, known, rig::readings_at(known, kTruth, 1, k), rig::attacked(known, 1, k, 0.2, 0.2, 1.5), table, k);
+    rig::tick(*method, known, rig::readings_at(known, kTruth, 1, k), rig::attacked(known, 1, k, 0.2, 0.2, 1.5), table,
+              k);
   }
   ASSERT_TRUE(table.stopped());
   const auto faults = rig::faults_of(table, *method);
@@ -163,13 +171,24 @@ TEST(Settings, AreRefusedAtTheirPointer) {
   Knowledge known = default_knowledge();
   rig::set_rates(known, {0.2, 0.2, 2.0});
   const std::vector<BadParams> bad{
-      {{{"eps", 1.0 / 3 + 1e-12}}, "/eps"},    {{{"eps", 5}}, "/eps"},         {{{"eps", 0}}, "/eps"},
-      {{{"eps", -0.1}}, "/eps"},               {{{"sigma", 0}}, "/sigma"},     {{{"beta", -1}}, "/beta"},
-      {{{"rho", 1}}, "/rho"},                  {{{"rho", 0}}, "/rho"},         {{{"tau", -1e-9}}, "/tau"},
-      {{{"guard", "clamp"}}, "/guard"},        {{{"bound", "loose"}}, "/bound"}, {{{"phibar", 1.5}}, "/phibar"},
-      {{{"phibar", 0.7}, {"gammabar", 0.4}}, "/gammabar"},                     {{{"delta", 1.9}}, "/delta"},
-      {{{"U", {1, 2}}}, ""},                   {{{"V", Json::parse("[[1,0,0],[0,1,0],[0,0,1]]")}}, ""},
-      {{{"tua", 0.1}}, "/tua"},                {{{"tau", "0.1"}}, "/tau"},
+      {{{"eps", 1.0 / 3 + 1e-12}}, "/eps"},
+      {{{"eps", 5}}, "/eps"},
+      {{{"eps", 0}}, "/eps"},
+      {{{"eps", -0.1}}, "/eps"},
+      {{{"sigma", 0}}, "/sigma"},
+      {{{"beta", -1}}, "/beta"},
+      {{{"rho", 1}}, "/rho"},
+      {{{"rho", 0}}, "/rho"},
+      {{{"tau", -1e-9}}, "/tau"},
+      {{{"guard", "clamp"}}, "/guard"},
+      {{{"bound", "loose"}}, "/bound"},
+      {{{"phibar", 1.5}}, "/phibar"},
+      {{{"phibar", 0.7}, {"gammabar", 0.4}}, "/gammabar"},
+      {{{"delta", 1.9}}, "/delta"},
+      {{{"U", {1, 2}}}, ""},
+      {{{"V", Json::parse("[[1,0,0],[0,1,0],[0,0,1]]")}}, ""},
+      {{{"tua", 0.1}}, "/tua"},
+      {{{"tau", "0.1"}}, "/tau"},
   };
   for (const BadParams& given : bad) {
     try {
@@ -185,8 +204,10 @@ TEST(Settings, AreRefusedAtTheirPointer) {
 }
 
 TEST(Settings, ChooseEpsByTheGraph) {
-  const std::vector<std::pair<const char*, double>> known{{"ladder", 0.3}, {"ring", 0.45}, {"complete", 0.9 / 7}, {"none", 0.3}, {"knn3", 0.225}};
-  for (const auto& [graph, eps] : known) EXPECT_DOUBLE_EQ(filter(default_knowledge(graph))->design()["eps"].get<double>(), eps) << graph;
+  const std::vector<std::pair<const char*, double>> known{
+      {"ladder", 0.3}, {"ring", 0.45}, {"complete", 0.9 / 7}, {"none", 0.3}, {"knn3", 0.225}};
+  for (const auto& [graph, eps] : known)
+    EXPECT_DOUBLE_EQ(filter(default_knowledge(graph))->design()["eps"].get<double>(), eps) << graph;
 }
 
 // A live change that is refused must leave no trace.

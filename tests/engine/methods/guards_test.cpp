@@ -38,7 +38,9 @@ Eigen::Matrix3d mapped(const Eigen::Matrix3d& a, const Function& f) {
   return eigen.eigenvectors() * eigen.eigenvalues().unaryExpr(f).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& a) { return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(a).eigenvalues(); }
+Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& a) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(a).eigenvalues();
+}
 
 const Eigen::Matrix3d kTurn = (Eigen::Matrix3d() << 1, 0, -0.02, 0, 1, 0.13, 0, 0, 1).finished();
 
@@ -97,7 +99,8 @@ TEST(Adapt, FollowsItsFormulas) {
     EXPECT_TRUE(node.Pp.isApprox(raw, 1e-9)) << trial;
     EXPECT_NEAR(node.beta, std::min(0.1, 0.9 / eigenvalues(raw)[2]), 1e-9);
     EXPECT_TRUE(node.M1.isApprox((raw.inverse() - node.beta * Eigen::Matrix3d::Identity()).inverse(), 1e-7));
-    EXPECT_TRUE(node.C.isApprox(mapped(0.4 * raw, [](double v) { return std::min(v, 0.25); }), 1e-9)) << "eigenvalues of C at most 1/(1+d)";
+    EXPECT_TRUE(node.C.isApprox(mapped(0.4 * raw, [](double v) { return std::min(v, 0.25); }), 1e-9))
+        << "eigenvalues of C at most 1/(1+d)";
   }
 }
 

@@ -21,8 +21,10 @@ Knowledge linear(int n) {
   Knowledge known;
   const Eigen::MatrixXd A = 0.9 * Eigen::MatrixXd::Identity(n, n) + 0.05 * normal_matrix(n, n, 1);
   known.plant = std::make_shared<rig::LinearPlant>(A);
-  known.sensors = {std::make_shared<rig::LinearSensor>(normal_matrix(2, n, 2), Eigen::MatrixXd(Eigen::Vector2d(0.5, 0.2).asDiagonal())),
-                   std::make_shared<rig::LinearSensor>(normal_matrix(1, n, 3), Eigen::MatrixXd(0.3 * Eigen::MatrixXd::Identity(1, 1)))};
+  known.sensors = {std::make_shared<rig::LinearSensor>(normal_matrix(2, n, 2),
+                                                       Eigen::MatrixXd(Eigen::Vector2d(0.5, 0.2).asDiagonal())),
+                   std::make_shared<rig::LinearSensor>(normal_matrix(1, n, 3),
+                                                       Eigen::MatrixXd(0.3 * Eigen::MatrixXd::Identity(1, 1)))};
   known.nodes = {"a", "b"};
   known.graph = Graph(2, {});
   const Eigen::MatrixXd half = normal_matrix(n, n, 4);
@@ -84,7 +86,8 @@ TEST(Centralized, IsTheStackedFilter) {
     const Eigen::VectorXd r = z - B * x;
     // The innovations, whitened one after another, are the stacked chi-square.
     const Belief belief = method->belief(0);
-    EXPECT_NEAR((Eigen::Map<const Eigen::VectorXd>(belief.innovation, belief.innovation_size).squaredNorm()), r.dot(S.inverse() * r), 1e-9);
+    EXPECT_NEAR((Eigen::Map<const Eigen::VectorXd>(belief.innovation, belief.innovation_size).squaredNorm()),
+                r.dot(S.inverse() * r), 1e-9);
     x += K * r;
     P -= K * B * P;
     EXPECT_TRUE(rig::mean(*method, 0, n).isApprox(x, 1e-9));
@@ -121,7 +124,9 @@ Consistency consistency(const char* id, int n, int trials) {
       const Eigen::Map<const Eigen::VectorXd> r(belief.innovation, belief.innovation_size);
       sum.nis += belief.innovation_covariance == nullptr
                      ? r.squaredNorm()
-                     : r.dot(Eigen::Map<const Eigen::MatrixXd>(belief.innovation_covariance, r.size(), r.size()).ldlt().solve(r));
+                     : r.dot(Eigen::Map<const Eigen::MatrixXd>(belief.innovation_covariance, r.size(), r.size())
+                                 .ldlt()
+                                 .solve(r));
       ++sum.count;
     }
   }
@@ -150,7 +155,8 @@ TEST(Kalman, IsConsistentOnALinearPlant) {
 
 TEST(Centralized, GateLeavesOutliersOut) {
   const Knowledge known = linear(3);
-  auto gated = Registry<MethodMake>::find("centralized_ekf")->make(rig::completed("centralized_ekf", {{"gate", 0.99}}), known);
+  auto gated =
+      Registry<MethodMake>::find("centralized_ekf")->make(rig::completed("centralized_ekf", {{"gate", 0.99}}), known);
   auto open = Registry<MethodMake>::find("centralized_ekf")->make(rig::completed("centralized_ekf"), known);
   FaultTable faults;
   Readings readings = rig::readings_at(known, Eigen::Vector3d::Zero(), 1, 1);

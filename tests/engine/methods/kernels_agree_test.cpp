@@ -24,7 +24,8 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-// The two round differently (fixed 3x3 eigenvalue problems have a path of their own), by about 1e-16 a step; the network hardly amplifies it.
+// The two round differently (fixed 3x3 eigenvalue problems have a path of their own), by about 1e-16 a step; the
+// network hardly amplifies it.
 TEST_P(Kernels, AgreeToTheLastDigits) {
   const Case& given = cases()[static_cast<std::size_t>(GetParam())];
   Knowledge known = rig::knowledge_of(Scenario::preset(given.scenario), 3);

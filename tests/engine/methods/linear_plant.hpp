@@ -42,7 +42,9 @@ class LinearSensor final : public Sensor {
   const std::vector<Component>& channels() const override { return channels_; }
   const Eigen::MatrixXd& noise() const override { return R_; }
   void measure(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const override { z = B_ * x; }
-  void jacobian(const Eigen::Ref<const Eigen::VectorXd>& /*x*/, Eigen::Ref<Eigen::MatrixXd> H) const override { H = B_; }
+  void jacobian(const Eigen::Ref<const Eigen::VectorXd>& /*x*/, Eigen::Ref<Eigen::MatrixXd> H) const override {
+    H = B_;
+  }
 
  private:
   Eigen::MatrixXd B_, R_;

@@ -1,5 +1,5 @@
-/// The filter of seed 000 as its specification prints it (section 5), with plain inverses and run-time sizes: slow, and a second reading of the same page.
-/// No guard: valid while (28), (29) hold.
+/// The filter of seed 000 as its specification prints it (section 5), with plain inverses and run-time sizes: slow, and
+/// a second reading of the same page. No guard: valid while (28), (29) hold.
 #pragma once
 
 #include <Eigen/Dense>
@@ -48,18 +48,21 @@ inline void predict(NodeState& node, const Knowledge& known, const Constants& c)
 }
 
 /// (27) as a function of the gain, for the test that perturbs it.
-inline Eigen::MatrixXd bound_of(const Eigen::MatrixXd& K, const NodeState& node, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R,
-                                const Eigen::MatrixXd& neighbours, int delivered, int d, const Constants& c) {
+inline Eigen::MatrixXd bound_of(const Eigen::MatrixXd& K, const NodeState& node, const Eigen::MatrixXd& H,
+                                const Eigen::MatrixXd& R, const Eigen::MatrixXd& neighbours, int delivered, int d,
+                                const Constants& c) {
   const auto n = node.x.size();
   const Eigen::Vector3d m = multipliers(c, d, node.C);
   const Eigen::MatrixXd VV = c.v * c.v * identity(R.rows());
   const Eigen::MatrixXd G = identity(n) - delivered * node.C - K * H;
   return m[0] * G * node.M * G.transpose() + m[1] * (1 - c.phibar) * node.C * neighbours * node.C.transpose() +
-         m[2] * d * c.delta * c.delta * c.gammabar * node.C * node.C.transpose() + K * (m[0] / c.beta * VV + R) * K.transpose();
+         m[2] * d * c.delta * c.delta * c.gammabar * node.C * node.C.transpose() +
+         K * (m[0] / c.beta * VV + R) * K.transpose();
 }
 
 /// (30).
-inline Eigen::MatrixXd gain(const NodeState& node, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R, int delivered, int d, const Constants& c) {
+inline Eigen::MatrixXd gain(const NodeState& node, const Eigen::MatrixXd& H, const Eigen::MatrixXd& R, int delivered,
+                            int d, const Constants& c) {
   const Eigen::Vector3d m = multipliers(c, d, node.C);
   const Eigen::MatrixXd VV = c.v * c.v * identity(R.rows());
   const Eigen::MatrixXd S = H * node.M * H.transpose() + VV / c.beta + R / m[0];
@@ -95,7 +98,8 @@ inline Heard hear(const std::vector<NodeState>& nodes, int i, const Knowledge& k
 }
 
 /// Lines 6 to 16 at every node; a reading with a NaN is none.
-inline void update(std::vector<NodeState>& nodes, const Knowledge& known, const Readings& readings, const rig::Links& links, const Constants& c) {
+inline void update(std::vector<NodeState>& nodes, const Knowledge& known, const Readings& readings,
+                   const rig::Links& links, const Constants& c) {
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
     NodeState& node = nodes[static_cast<std::size_t>(i)];
     const Sensor& sensor = *known.sensors[static_cast<std::size_t>(i)];
@@ -111,7 +115,8 @@ inline void update(std::vector<NodeState>& nodes, const Knowledge& known, const 
       if (period > 0) r[s] -= period * std::floor(r[s] / period + 0.5);
     }
     const bool measured = r.allFinite();
-    const Eigen::MatrixXd K = measured ? gain(node, H, sensor.noise(), heard.delivered, d, c) : Eigen::MatrixXd::Zero(node.x.size(), r.size());
+    const Eigen::MatrixXd K = measured ? gain(node, H, sensor.noise(), heard.delivered, d, c)
+                                       : Eigen::MatrixXd::Zero(node.x.size(), r.size());
     node.x = node.xp + node.C * heard.pull;
     if (measured) node.x += K * r;
     node.Phi = bound_of(K, node, H, sensor.noise(), heard.neighbours, heard.delivered, d, c);

@@ -1,4 +1,5 @@
-/// The kernel against the printed formulas, written a second time with plain inverses: sections 5, 7 and 15 of the specification.
+/// The kernel against the printed formulas, written a second time with plain inverses: sections 5, 7 and 15 of the
+/// specification.
 #include "tests/engine/methods/printed_formulas.hpp"
 
 #include <gtest/gtest.h>
@@ -20,13 +21,26 @@ class OneStep : public testing::TestWithParam<Case> {
     scenario = Scenario::preset("consensus-compass").with("network.graph", given.graph);
     known = rig::knowledge_of(scenario, 5);
     rig::set_rates(known, {0.2, 0.3, 2.2});
-    constants = {.tau = given.tau,     .sigma = 0.1,     .beta = 0.1,    .eps = 0.3,   .phibar = 0.2,
-                 .gammabar = 0.3, .delta = 2.2, .u = 0.005, .v = 0.02, .bound = given.bound};
+    constants = {.tau = given.tau,
+                 .sigma = 0.1,
+                 .beta = 0.1,
+                 .eps = 0.3,
+                 .phibar = 0.2,
+                 .gammabar = 0.3,
+                 .delta = 2.2,
+                 .u = 0.005,
+                 .v = 0.02,
+                 .bound = given.bound};
     if (known.graph.max_degree() > 3) constants.eps = 0.1;
-    for (Eigen::Index i = 0; i < known.estimates.cols(); ++i) nodes.push_back({known.estimates.col(i), {}, known.P0, {}, {}, {}});
-    method = consensus::make_filter(
-        rig::completed("consensus_ekf", {{"tau", given.tau}, {"eps", constants.eps}, {"U", 0.005}, {"V", 0.02}, {"guard", "strict"}, {"bound", given.bound}}),
-        known);
+    for (Eigen::Index i = 0; i < known.estimates.cols(); ++i)
+      nodes.push_back({known.estimates.col(i), {}, known.P0, {}, {}, {}});
+    method = consensus::make_filter(rig::completed("consensus_ekf", {{"tau", given.tau},
+                                                                     {"eps", constants.eps},
+                                                                     {"U", 0.005},
+                                                                     {"V", 0.02},
+                                                                     {"guard", "strict"},
+                                                                     {"bound", given.bound}}),
+                                    known);
   }
 
   /// One tick of both, readings of a robot that follows the model.
@@ -113,8 +127,9 @@ INSTANTIATE_TEST_SUITE_P(Consensus, ManySteps,
                          name_of);
 // Where a reading is missing, the bound grows past (28) within a few steps: one step only.
 INSTANTIATE_TEST_SUITE_P(Consensus, OneStep,
-                         testing::Values(Case{"paper", "ladder", 0.01, false}, Case{"paper", "path", 0.02, true}, Case{"paper", "none", 0.02, true},
-                                         Case{"corrected", "complete", 0.005, true}, Case{"tight", "none", 0.01, true}),
+                         testing::Values(Case{"paper", "ladder", 0.01, false}, Case{"paper", "path", 0.02, true},
+                                         Case{"paper", "none", 0.02, true}, Case{"corrected", "complete", 0.005, true},
+                                         Case{"tight", "none", 0.01, true}),
                          name_of);
 
 }  // namespace

@@ -22,13 +22,16 @@ inline Knowledge knowledge_of(const Scenario& scenario, std::uint64_t seed = 1) 
   const Json& document = scenario.document();
   Knowledge known;
   const auto& plant = document["plant"];
-  known.plant = Registry<PlantMake>::find(plant["type"].get<std::string>())->make(Params(plant["params"]), document["time"]["dt"].get<double>());
+  known.plant = Registry<PlantMake>::find(plant["type"].get<std::string>())
+                    ->make(Params(plant["params"]), document["time"]["dt"].get<double>());
   const int n = known.plant->states();
   Eigen::Matrix2Xd positions(2, static_cast<Eigen::Index>(document["nodes"].size()));
   for (const auto& [id, node] : document["nodes"].items()) {
     const auto& sensor = node["sensor"];
-    known.sensors.push_back(Registry<SensorMake>::find(sensor["type"].get<std::string>())->make(Params(sensor["params"]), *known.plant));
-    positions.col(static_cast<Eigen::Index>(known.nodes.size())) = known.sensors.back()->position().value_or(Eigen::Vector2d::Zero());
+    known.sensors.push_back(
+        Registry<SensorMake>::find(sensor["type"].get<std::string>())->make(Params(sensor["params"]), *known.plant));
+    positions.col(static_cast<Eigen::Index>(known.nodes.size())) =
+        known.sensors.back()->position().value_or(Eigen::Vector2d::Zero());
     known.nodes.push_back(id);
   }
   known.graph = read_network(document["network"], known.nodes, positions);
@@ -81,7 +84,8 @@ struct Links {
 };
 
 /// DoS below pdos, FDI of norm up to `size` below pdos + pfdi.
-inline Links attacked(const Knowledge& known, std::uint64_t seed, std::int64_t k, double pdos, double pfdi, double size) {
+inline Links attacked(const Knowledge& known, std::uint64_t seed, std::int64_t k, double pdos, double pfdi,
+                      double size) {
   Links links(known);
   const Draws branch(seed, "branch"), signal(seed, "signal");
   for (std::size_t l = 0; l < links.state.size(); ++l) {
@@ -90,13 +94,15 @@ inline Links attacked(const Knowledge& known, std::uint64_t seed, std::int64_t k
     if (u < pdos) links.state[l] = LinkState::dos;
     if (u < pdos || u >= pdos + pfdi) continue;
     links.state[l] = LinkState::fdi;
-    for (Eigen::Index c = 0; c < 2; ++c) links.injected(c, static_cast<Eigen::Index>(l)) = size * std::sin(signal.normal(k, index));
+    for (Eigen::Index c = 0; c < 2; ++c)
+      links.injected(c, static_cast<Eigen::Index>(l)) = size * std::sin(signal.normal(k, index));
   }
   return links;
 }
 
 /// One tick of a method as a lane makes it.
-inline void tick(Method& method, const Knowledge& known, const Readings& readings, const Links& links, FaultTable& faults, std::int64_t k) {
+inline void tick(Method& method, const Knowledge& known, const Readings& readings, const Links& links,
+                 FaultTable& faults, std::int64_t k) {
   faults.begin_tick(k);
   method.predict(Eigen::VectorXd::Zero(known.plant->inputs()), faults);
   if (faults.stopped()) return;
@@ -111,7 +117,9 @@ inline void tick(Method& method, const Knowledge& known, const Readings& reading
   method.update(readings, inbox, faults);
 }
 
-inline Eigen::VectorXd mean(const Method& method, int output, int n) { return Eigen::Map<const Eigen::VectorXd>(method.belief(output).mean, n); }
+inline Eigen::VectorXd mean(const Method& method, int output, int n) {
+  return Eigen::Map<const Eigen::VectorXd>(method.belief(output).mean, n);
+}
 inline Eigen::MatrixXd bound(const Method& method, int output, int n) {
   return Eigen::Map<const Eigen::MatrixXd>(method.belief(output).covariance, n, n);
 }

@@ -1,5 +1,6 @@
-/// Every law against its distribution function. Seeds are fixed, so a test passes or fails for ever; the bounds are what chance alone would break
-/// once in 10 000 laws (Kolmogorov-Smirnov: sqrt(n) D < 2.23) or once in 100 000 (moments and tails: 4.5 standard errors).
+/// Every law against its distribution function. Seeds are fixed, so a test passes or fails for ever; the bounds are
+/// what chance alone would break once in 10 000 laws (Kolmogorov-Smirnov: sqrt(n) D < 2.23) or once in 100 000 (moments
+/// and tails: 4.5 standard errors).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +52,8 @@ double errors_off(const std::vector<double>& values, double expected, const std:
 
 double share_errors_off(const std::vector<double>& values, double limit, double probability) {
   const auto beyond = std::count_if(values.begin(), values.end(), [&](double v) { return v > limit; });
-  return std::abs(static_cast<double>(beyond) - kDraws * probability) / std::sqrt(kDraws * probability * (1 - probability));
+  return std::abs(static_cast<double>(beyond) - kDraws * probability) /
+         std::sqrt(kDraws * probability * (1 - probability));
 }
 
 struct Law {
@@ -68,24 +70,29 @@ double student4(double t) {
   return 0.5 + 0.75 * (u - u * u * u / 3);
 }
 
-double laplace_cdf(double x, double scale) { return x < 0 ? 0.5 * std::exp(x / scale) : 1 - 0.5 * std::exp(-x / scale); }
+double laplace_cdf(double x, double scale) {
+  return x < 0 ? 0.5 * std::exp(x / scale) : 1 - 0.5 * std::exp(-x / scale);
+}
 double gamma_cdf(double x, double shape, double scale) { return chi_square_cdf(2 * x / scale, 2 * shape); }
 
 const double kNone = std::nan("");
 
 const std::vector<Law>& laws() {
   static const std::vector<Law> all{
-      {"uniform", [](const Draws& d, std::int64_t k) { return d.uniform(k, 0); }, [](double x) { return std::clamp(x, 0.0, 1.0); }, 0.5,
-       1 / 12.0, 0.999},
+      {"uniform", [](const Draws& d, std::int64_t k) { return d.uniform(k, 0); },
+       [](double x) { return std::clamp(x, 0.0, 1.0); }, 0.5, 1 / 12.0, 0.999},
       {"normal_even", [](const Draws& d, std::int64_t k) { return d.normal(k, 0); }, normal_cdf, 0, 1, 3.5},
       {"normal_odd", [](const Draws& d, std::int64_t k) { return d.normal(k, 1); }, normal_cdf, 0, 1, 3.5},
-      {"normal_along_index", [](const Draws& d, std::int64_t k) { return d.normal(1, static_cast<std::uint32_t>(k)); }, normal_cdf, 0, 1, 3.5},
-      {"laplace", [](const Draws& d, std::int64_t k) { return d.laplace(k, 0, 2.5); }, [](double x) { return laplace_cdf(x, 2.5); }, 0, 12.5, 17},
-      {"gamma_small", [](const Draws& d, std::int64_t k) { return d.gamma(k, 0, 0.4, 3); }, [](double x) { return gamma_cdf(x, 0.4, 3); }, 1.2,
-       3.6, 15},
-      {"gamma_one", [](const Draws& d, std::int64_t k) { return d.gamma(k, 0, 1, 1); }, [](double x) { return gamma_cdf(x, 1, 1); }, 1, 1, 7},
-      {"gamma_large", [](const Draws& d, std::int64_t k) { return d.gamma(k, 0, 7.5, 0.5); }, [](double x) { return gamma_cdf(x, 7.5, 0.5); },
-       3.75, 1.875, 9},
+      {"normal_along_index", [](const Draws& d, std::int64_t k) { return d.normal(1, static_cast<std::uint32_t>(k)); },
+       normal_cdf, 0, 1, 3.5},
+      {"laplace", [](const Draws& d, std::int64_t k) { return d.laplace(k, 0, 2.5); },
+       [](double x) { return laplace_cdf(x, 2.5); }, 0, 12.5, 17},
+      {"gamma_small", [](const Draws& d, std::int64_t k) { return d.gamma(k, 0, 0.4, 3); },
+       [](double x) { return gamma_cdf(x, 0.4, 3); }, 1.2, 3.6, 15},
+      {"gamma_one", [](const Draws& d, std::int64_t k) { return d.gamma(k, 0, 1, 1); },
+       [](double x) { return gamma_cdf(x, 1, 1); }, 1, 1, 7},
+      {"gamma_large", [](const Draws& d, std::int64_t k) { return d.gamma(k, 0, 7.5, 0.5); },
+       [](double x) { return gamma_cdf(x, 7.5, 0.5); }, 3.75, 1.875, 9},
       {"student_1", [](const Draws& d, std::int64_t k) { return d.student(k, 0, 1); }, student1, kNone, kNone, 300},
       {"student_4", [](const Draws& d, std::int64_t k) { return d.student(k, 0, 4); }, student4, 0, kNone, 7},
       {"mixture", [](const Draws& d, std::int64_t k) { return d.mixture(k, 0, 0.1, 1, 8); },
@@ -156,7 +163,8 @@ TEST(Draws, FillTheUnitBall) {
 /// Streams that differ in one part of their address must not resemble each other.
 TEST(Draws, NeighboursAreUncorrelated) {
   const Draws here(1, "sensor.1"), other_seed(2, "sensor.1"), other_name(1, "sensor.2");
-  const auto correlation = [](const std::function<double(std::int64_t)>& a, const std::function<double(std::int64_t)>& b) {
+  const auto correlation = [](const std::function<double(std::int64_t)>& a,
+                              const std::function<double(std::int64_t)>& b) {
     double sum = 0;
     for (std::int64_t k = 0; k < kDraws; ++k) sum += a(k) * b(k);
     return std::abs(sum) / std::sqrt(double{kDraws});

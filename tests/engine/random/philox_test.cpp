@@ -22,7 +22,8 @@ TEST(Draws, DependOnEveryPartOfTheirAddressAndNothingElse) {
   EXPECT_EQ(draws.block(3, 5, 2), Draws(7, "plant").block(3, 5, 2));
   std::set<PhiloxBlock> seen;
   for (const std::uint64_t seed : {0ULL, 1ULL, 2ULL, ~0ULL}) {
-    for (const char* stream : {"", "plant", "sensor.1", "sensor.2", "adversary.links.branch", "adversary.links.signal"}) {
+    for (const char* stream :
+         {"", "plant", "sensor.1", "sensor.2", "adversary.links.branch", "adversary.links.signal"}) {
       for (const std::int64_t tick : {0LL, 1LL, 2LL, (1LL << 32) + 1, (1LL << 47) - 1}) {
         for (const std::uint32_t index : {0U, 1U, ~0U}) {
           for (const std::uint32_t sub : {0U, 1U, 0xFFFFU}) seen.insert(Draws(seed, stream).block(tick, index, sub));

@@ -59,7 +59,8 @@ TEST(RegistryWalk, EveryDeclarationHasItsWords) {
     EXPECT_FALSE(registry.at(kind).empty()) << kind;
     for (const Json& entry : registry.at(kind)) {
       EXPECT_FALSE(entry.at("title").at("zh").get<std::string>().empty()) << entry.at("id");
-      for (const Json& param : entry.at("parameters")) EXPECT_FALSE(param.at("meaning").at("zh").get<std::string>().empty()) << param.at("name");
+      for (const Json& param : entry.at("parameters"))
+        EXPECT_FALSE(param.at("meaning").at("zh").get<std::string>().empty()) << param.at("name");
     }
   }
 }
@@ -69,7 +70,9 @@ TEST(UserPlants, OneTwoAndTwelveNodes) {
     for (const char* graph : {"none", "path", "complete", "ring"}) {
       Json document = Scenario::preset("consensus").document();
       document["nodes"] = Json::object();
-      for (int i = 1; i <= nodes; ++i) document["nodes"][std::to_string(i)] = {{"sensor", {{"type", "camera"}, {"params", {{"position", {20 * i, 150 - 7 * i}}}}}}};
+      for (int i = 1; i <= nodes; ++i)
+        document["nodes"][std::to_string(i)] = {
+            {"sensor", {{"type", "camera"}, {"params", {{"position", {20 * i, 150 - 7 * i}}}}}}};
       document["network"] = {{"graph", graph}};
       if (nodes < 3 && std::string(graph) == "ring") continue;
       SCOPED_TRACE(std::to_string(nodes) + " nodes, " + graph);

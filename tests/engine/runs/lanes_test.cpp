@@ -12,7 +12,9 @@ using test::run_to_end;
 
 Scenario consensus(const Json& patch = Json::object()) { return Scenario::preset("consensus").patched(patch); }
 
-Json lane_params(const Json& params, const char* lane = "consensus") { return {{"lanes", {{lane, {{"params", params}}}}}}; }
+Json lane_params(const Json& params, const char* lane = "consensus") {
+  return {{"lanes", {{lane, {{"params", params}}}}}};
+}
 
 double value(const vigil::Run& run, const Capture& capture, std::size_t k, const std::string& name) {
   const int id = run.catalogue().find(name);
@@ -21,7 +23,8 @@ double value(const vigil::Run& run, const Capture& capture, std::size_t k, const
 }
 
 /// Every signal of one lane beside another's, node by node, to a tolerance (0: bit for bit).
-void expect_lanes_alike(const vigil::Run& run, const Capture& capture, const std::string& a, const std::string& b, double tolerance) {
+void expect_lanes_alike(const vigil::Run& run, const Capture& capture, const std::string& a, const std::string& b,
+                        double tolerance) {
   for (std::size_t k = 0; k < capture.frames.size(); ++k) {
     for (int node = 1; node <= 8; ++node) {
       for (const char* what : {"estimate.x", "estimate.y", "estimate.theta", "bound", "bound_heading", "lambda_max"}) {
@@ -54,7 +57,8 @@ TEST(Lanes, AllJammedIsNoConsensus) {
   Capture capture;
   run_to_end(run, capture);
   expect_lanes_alike(run, capture, "consensus", "clean", 1e-12);
-  for (std::size_t k = 1; k < capture.frames.size(); ++k) EXPECT_EQ(value(run, capture, k, "lane.consensus.3.lost"), 3) << "node 3 has three links";
+  for (std::size_t k = 1; k < capture.frames.size(); ++k)
+    EXPECT_EQ(value(run, capture, k, "lane.consensus.3.lost"), 3) << "node 3 has three links";
 }
 
 TEST(Lanes, AStoppedOneIsSilentAndTheOthersGoOn) {
@@ -65,9 +69,11 @@ TEST(Lanes, AStoppedOneIsSilentAndTheOthersGoOn) {
   EXPECT_EQ(run.tick(), 30);
   for (const Signal& signal : run.catalogue().all()) {
     if (signal.lane != "consensus") continue;
-    for (std::size_t k = 2; k <= 30; ++k) EXPECT_TRUE(std::isnan(capture.frames[k].values[static_cast<std::size_t>(signal.id)])) << signal.name << " " << k;
+    for (std::size_t k = 2; k <= 30; ++k)
+      EXPECT_TRUE(std::isnan(capture.frames[k].values[static_cast<std::size_t>(signal.id)])) << signal.name << " " << k;
   }
-  for (const char* lane : {"lane.clean.", "lane.drop.", "lane.isolated.", "lane.centralized."}) test::expect_same(run, capture, plain, other, lane);
+  for (const char* lane : {"lane.clean.", "lane.drop.", "lane.isolated.", "lane.centralized."})
+    test::expect_same(run, capture, plain, other, lane);
   int stops = 0;
   for (const FaultCount& fault : run.faults()) {
     if (!fault.stopped) continue;
@@ -75,14 +81,16 @@ TEST(Lanes, AStoppedOneIsSilentAndTheOthersGoOn) {
     EXPECT_EQ(fault.lane, "consensus");
     EXPECT_EQ(fault.code, "infeasible_28");
     EXPECT_EQ(fault.first, 2);
-    for (const char* part : {"node", "step 2", "eigenvalue", "limit 7.69231"}) EXPECT_NE(fault.detail.find(part), std::string::npos) << fault.detail;
+    for (const char* part : {"node", "step 2", "eigenvalue", "limit 7.69231"})
+      EXPECT_NE(fault.detail.find(part), std::string::npos) << fault.detail;
   }
   EXPECT_EQ(stops, 1);
 }
 
 TEST(Lanes, ARunWithoutALivingOneEnds) {
   Json patch = lane_params({{"guard", "strict"}});
-  for (const char* lane : {"clean", "drop", "naive_hold", "naive_zero", "isolated", "centralized"}) patch["lanes"][lane] = nullptr;
+  for (const char* lane : {"clean", "drop", "naive_hold", "naive_zero", "isolated", "centralized"})
+    patch["lanes"][lane] = nullptr;
   vigil::Run run(consensus(patch), {1, nullptr, {}});
   Capture capture;
   run_to_end(run, capture);
@@ -116,12 +124,15 @@ TEST(Lanes, ARetunedAttackKeepsItsDraws) {
   EXPECT_EQ(run.design()["consensus"]["eps"], 0.3);
 }
 
-// Values for one attack or lane belong together: neither order of pdos 0.9 and pfdi 0.05 may stumble over the old partner.
+// Values for one attack or lane belong together: neither order of pdos 0.9 and pfdi 0.05 may stumble over the old
+// partner.
 TEST(Commands, JudgeValuesTogether) {
-  for (const char* body : {R"({"params":{"adversary.links.params.pdos":0.9,"adversary.links.params.pfdi":0.05}})",
-                           R"({"params":{"adversary.links.params.pfdi":0.05,"adversary.links.params.pdos":0.9}})",
-                           R"({"params":{"adversary.links.params.delta":50,"adversary.links.params.xi_scale":20,"adversary.links.enabled":true}})",
-                           R"({"params":{"lanes.consensus.params.phibar":0.9,"lanes.consensus.params.gammabar":0.1}})"}) {
+  for (
+      const char* body :
+      {R"({"params":{"adversary.links.params.pdos":0.9,"adversary.links.params.pfdi":0.05}})",
+       R"({"params":{"adversary.links.params.pfdi":0.05,"adversary.links.params.pdos":0.9}})",
+       R"({"params":{"adversary.links.params.delta":50,"adversary.links.params.xi_scale":20,"adversary.links.enabled":true}})",
+       R"({"params":{"lanes.consensus.params.phibar":0.9,"lanes.consensus.params.gammabar":0.1}})"}) {
     vigil::Run run(consensus(), {1, nullptr, {}});
     EXPECT_NO_THROW(run.apply(run.prepare(Json::parse(body)))) << body;
     Capture capture;
@@ -136,9 +147,12 @@ TEST(Commands, JudgeValuesTogether) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(pointer(R"({"params":{"adversary.links.params.pdos":0.9,"adversary.links.params.pfdi":0.2}})"), "/params/adversary.links.params.pfdi");
-  EXPECT_EQ(pointer(R"({"params":{"lanes.consensus.params.tau":0.1,"lanes.consensus.params.eps":0.9}})"), "/params/lanes.consensus.params.eps");
-  EXPECT_EQ(pointer(R"({"params":{"lanes.consensus.params.tau":0.1,"lanes.consensus.params.mode":"drop"}})"), "/params/lanes.consensus.params.mode");
+  EXPECT_EQ(pointer(R"({"params":{"adversary.links.params.pdos":0.9,"adversary.links.params.pfdi":0.2}})"),
+            "/params/adversary.links.params.pfdi");
+  EXPECT_EQ(pointer(R"({"params":{"lanes.consensus.params.tau":0.1,"lanes.consensus.params.eps":0.9}})"),
+            "/params/lanes.consensus.params.eps");
+  EXPECT_EQ(pointer(R"({"params":{"lanes.consensus.params.tau":0.1,"lanes.consensus.params.mode":"drop"}})"),
+            "/params/lanes.consensus.params.mode");
   EXPECT_EQ(pointer(R"({"params":{"adversary.links.enabled":3}})"), "/params/adversary.links.enabled");
   EXPECT_EQ(pointer(R"({"params":{"adversary.nobody.enabled":true}})"), "/params/adversary.nobody.enabled");
   EXPECT_EQ(pointer(R"({"params":{"lanes.consensus.enabled":false}})"), "/params/lanes.consensus.enabled");
@@ -146,7 +160,8 @@ TEST(Commands, JudgeValuesTogether) {
 }
 
 TEST(Commands, ApplyAtTheirTickInWhateverOrderTheyAreGiven) {
-  const Command late{9, {{"params", {{"lanes.consensus.params.tau", 0.02}}}}}, early{3, {{"params", {{"lanes.consensus.params.tau", 0.03}}}}};
+  const Command late{9, {{"params", {{"lanes.consensus.params.tau", 0.02}}}}},
+      early{3, {{"params", {{"lanes.consensus.params.tau", 0.03}}}}};
   vigil::Run a(consensus(), {1, nullptr, {late, early}}), b(consensus(), {1, nullptr, {early, late}});
   Capture x, y;
   run_to_end(a, x);
@@ -185,7 +200,8 @@ TEST(Commands, TheGraphMayShrinkAndGrowBack) {
   run_to_end(plain, other);
   test::expect_same(run, capture, plain, other, "link.");
   test::expect_same(run, capture, plain, other, "lane.isolated.");
-  EXPECT_NE(value(run, capture, 30, "lane.consensus.5.estimate.x"), value(plain, other, 30, "lane.consensus.5.estimate.x"));
+  EXPECT_NE(value(run, capture, 30, "lane.consensus.5.estimate.x"),
+            value(plain, other, 30, "lane.consensus.5.estimate.x"));
 }
 
 TEST(Metrics, Theorem2IsJudgedOnTheRawBounds) {
@@ -194,7 +210,8 @@ TEST(Metrics, Theorem2IsJudgedOnTheRawBounds) {
   run_to_end(run, capture);
   double largest = 0;
   for (std::size_t k = 1; k <= 30; ++k) {
-    for (int node = 1; node <= 8; ++node) largest = std::max(largest, value(run, capture, k, "lane.consensus." + std::to_string(node) + ".lambda_max"));
+    for (int node = 1; node <= 8; ++node)
+      largest = std::max(largest, value(run, capture, k, "lane.consensus." + std::to_string(node) + ".lambda_max"));
   }
   EXPECT_EQ(test::metric(run.metrics(), "consensus", "theorem2_max_eig"), largest);
   EXPECT_GT(largest, 100) << "clipped copies stay below 7.69";
@@ -211,7 +228,8 @@ TEST(Metrics, IntervalsBelongToWhatTheyJudge) {
   const auto upper = [&](const char* lane, const char* name) { return design[lane][name][1].get<double>(); };
   EXPECT_DOUBLE_EQ(upper("consensus", "nees_interval_95"), chi_square_quantile(0.975, 3));
   EXPECT_DOUBLE_EQ(upper("isolated", "nis_interval_95"), chi_square_quantile(0.975, 2));
-  EXPECT_DOUBLE_EQ(upper("centralized", "nis_interval_95"), chi_square_quantile(0.975, 16)) << "eight cameras, two channels each";
+  EXPECT_DOUBLE_EQ(upper("centralized", "nis_interval_95"), chi_square_quantile(0.975, 16))
+      << "eight cameras, two channels each";
   // Where an ordinary filter's assumptions nearly hold, its figures are about their degrees of freedom.
   vigil::Run compass(Scenario::preset("consensus-compass"), {1, nullptr, {}});
   Capture capture;

@@ -1,11 +1,12 @@
 // Recordings of UTIAS MRCLAM: the importer on a recording made here, and the real robot where the data is at hand.
+#include "engine/run/mrclam.hpp"
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "engine/run/mrclam.hpp"
 #include "tests/engine/runs/capture.hpp"
 
 namespace vigil {
@@ -13,7 +14,8 @@ namespace {
 
 MrclamFiles small() {
   return {"# subject barcode\n3 41\n6 72\n7 27\n", "6 1.0 2.0 0 0\n7 -1.0 0.5 0 0\n",
-          "100.0 0 0 3.1\n101.0 1 0 -3.1\n102.0 2 0 -3.0\n", "100.48 72 2.0 0.5\n100.52 72 4.0 0.7\n101.0 41 1 0\n101.0 99 1 0\n101.2 27 3 -3.14\n",
+          "100.0 0 0 3.1\n101.0 1 0 -3.1\n102.0 2 0 -3.0\n",
+          "100.48 72 2.0 0.5\n100.52 72 4.0 0.7\n101.0 41 1 0\n101.0 99 1 0\n101.2 27 3 -3.14\n",
           "100.0 1.0 0.0\n100.5 3.0 1.0\n102.0 0 0\n"};
 }
 
@@ -56,7 +58,8 @@ TEST(Mrclam, RefusesWhatIsNoRecording) {
 
 TEST(Mrclam, TheRealRobot) {
   const char* shared = std::getenv("VIGIL_SHARED");
-  const std::filesystem::path folder = std::filesystem::path(shared != nullptr ? shared : VIGIL_SOURCE_DIR "/../shared") / "data/mrclam6-robot3";
+  const std::filesystem::path folder =
+      std::filesystem::path(shared != nullptr ? shared : VIGIL_SOURCE_DIR "/../shared") / "data/mrclam6-robot3";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the recording is not at hand: " << folder;
   const auto read = [&](const char* name) {
     std::ifstream file(folder / name);
@@ -64,9 +67,10 @@ TEST(Mrclam, TheRealRobot) {
     text << file.rdbuf();
     return text.str();
   };
-  const MrclamFiles files{read("Barcodes.dat"), read("Landmark_Groundtruth.dat"), read("Robot3_Groundtruth.dat"), read("Robot3_Measurement.dat"),
-                          read("Robot3_Odometry.dat")};
-  vigil::Run run(Scenario::preset("mrclam"), {1, std::make_shared<Trace>(Trace::from_csv(mrclam_to_csv(files, 0.1))), {}});
+  const MrclamFiles files{read("Barcodes.dat"), read("Landmark_Groundtruth.dat"), read("Robot3_Groundtruth.dat"),
+                          read("Robot3_Measurement.dat"), read("Robot3_Odometry.dat")};
+  vigil::Run run(Scenario::preset("mrclam"),
+                 {1, std::make_shared<Trace>(Trace::from_csv(mrclam_to_csv(files, 0.1))), {}});
   test::Capture capture;
   test::run_to_end(run, capture);
   EXPECT_NEAR(run.dt() * static_cast<double>(run.tick()), 887, 1);

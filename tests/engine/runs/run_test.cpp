@@ -24,7 +24,9 @@ TEST(RunFrames, CountFromTheInitialState) {
     EXPECT_EQ(capture.frames[k].t, static_cast<double>(k));
     EXPECT_EQ(static_cast<int>(capture.frames[k].values.size()), run.catalogue().size());
   }
-  const auto value = [&](std::size_t k, const char* name) { return capture.frames[k].values[static_cast<std::size_t>(run.catalogue().find(name))]; };
+  const auto value = [&](std::size_t k, const char* name) {
+    return capture.frames[k].values[static_cast<std::size_t>(run.catalogue().find(name))];
+  };
   EXPECT_EQ(value(0, "truth.x"), 150);
   EXPECT_EQ(value(0, "truth.y"), 70);
   EXPECT_TRUE(std::isnan(value(0, "sensor.1.p"))) << "nothing is measured at the initial state";
@@ -38,10 +40,12 @@ TEST(RunFrames, CountFromTheInitialState) {
 
 TEST(RunFrames, HaveTheContractsNames) {
   const vigil::Run run(consensus(), {1, nullptr, {}});
-  for (const char* name : {"truth.theta", "sensor.8.q", "sensor.8.q.sent", "sensor.8.q.injected", "link.1-2.state", "link.2-1.injected.x",
-                           "lane.consensus.3.estimate.theta", "lane.consensus.3.error", "lane.consensus.3.bound", "lane.consensus.3.bound_heading",
-                           "lane.consensus.3.nees", "lane.consensus.3.nis", "lane.consensus.3.feasible29", "lane.consensus.3.lambda_max",
-                           "lane.consensus.3.lost", "lane.consensus.spread", "lane.consensus.rmse", "lane.centralized.fused.estimate.x"}) {
+  for (const char* name :
+       {"truth.theta", "sensor.8.q", "sensor.8.q.sent", "sensor.8.q.injected", "link.1-2.state", "link.2-1.injected.x",
+        "lane.consensus.3.estimate.theta", "lane.consensus.3.error", "lane.consensus.3.bound",
+        "lane.consensus.3.bound_heading", "lane.consensus.3.nees", "lane.consensus.3.nis",
+        "lane.consensus.3.feasible29", "lane.consensus.3.lambda_max", "lane.consensus.3.lost", "lane.consensus.spread",
+        "lane.consensus.rmse", "lane.centralized.fused.estimate.x"}) {
     EXPECT_GE(run.catalogue().find(name), 0) << name;
   }
   EXPECT_LT(run.catalogue().find("link.1-3.state"), 0) << "the ladder has no such channel";
@@ -101,7 +105,8 @@ TEST(RunCommands, ReplayToTheSameBytes) {
   vigil::Run plain(consensus(), {4, nullptr, {}});
   Capture third;
   run_to_end(plain, third);
-  EXPECT_NE(test::csv_of(live.catalogue(), first.frames), test::csv_of(plain.catalogue(), third.frames)) << "the commands did something";
+  EXPECT_NE(test::csv_of(live.catalogue(), first.frames), test::csv_of(plain.catalogue(), third.frames))
+      << "the commands did something";
   expect_same(live, first, plain, third, "truth.");
 }
 
@@ -129,22 +134,29 @@ TEST_P(RefusedCommand, NamesTheFieldAndChangesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Run, RefusedCommand,
-    testing::Values(Refused{R"({})", ""}, Refused{R"({"params":{}})", "/params"}, Refused{R"({"params":{"plant.params.b":1}})", "/params/plant.params.b"},
-                    Refused{R"({"params":{"lanes.nobody.params.tau":1}})", "/params/lanes.nobody.params.tau"},
-                    Refused{R"({"params":{"lanes.consensus.params.tau":-1}})", "/params/lanes.consensus.params.tau"},
-                    Refused{R"({"params":{"lanes.consensus.params.U":1}})", "/params/lanes.consensus.params.U"},
-                    Refused{R"({"params":{"lanes.consensus.params.eps":0.5}})", "/params/lanes.consensus.params.eps"},
-                    Refused{R"({"params":{"adversary.links.params.pdos":0.9}})", "/params/adversary.links.params.pdos"},
-                    Refused{R"({"params":{"network.graph":"complete"}})", "/params/network.graph"},
-                    Refused{R"({"params":{"network.graph":3}})", "/params/network.graph"},
-                    Refused{R"({"attack":{"type":"dos_fdi","on":["sensor:1"]}})", "/attack/on"},
-                    Refused{R"({"attack":{"type":"bias","on":["sensor:1.z"],"params":{"vector":[1]}}})", "/attack/on/0"},
-                    Refused{R"({"attack":{"type":"bias","on":["sensor:1"],"params":{"vector":[1,2,3]}}})", "/attack/params/vector"},
-                    Refused{R"({"end_attack":"nobody"})", "/end_attack"}, Refused{R"({"params":1,"attack":2})", ""}));
+    testing::Values(
+        Refused{R"({})", ""}, Refused{R"({"params":{}})", "/params"},
+        Refused{R"({"params":{"plant.params.b":1}})", "/params/plant.params.b"},
+        Refused{R"({"params":{"lanes.nobody.params.tau":1}})", "/params/lanes.nobody.params.tau"},
+        Refused{R"({"params":{"lanes.consensus.params.tau":-1}})", "/params/lanes.consensus.params.tau"},
+        Refused{R"({"params":{"lanes.consensus.params.U":1}})", "/params/lanes.consensus.params.U"},
+        Refused{R"({"params":{"lanes.consensus.params.eps":0.5}})", "/params/lanes.consensus.params.eps"},
+        Refused{R"({"params":{"adversary.links.params.pdos":0.9}})", "/params/adversary.links.params.pdos"},
+        Refused{R"({"params":{"network.graph":"complete"}})", "/params/network.graph"},
+        Refused{R"({"params":{"network.graph":3}})", "/params/network.graph"},
+        Refused{R"({"attack":{"type":"dos_fdi","on":["sensor:1"]}})", "/attack/on"},
+        Refused{R"({"attack":{"type":"bias","on":["sensor:1.z"],"params":{"vector":[1]}}})", "/attack/on/0"},
+        Refused{R"({"attack":{"type":"bias","on":["sensor:1"],"params":{"vector":[1,2,3]}}})", "/attack/params/vector"},
+        Refused{R"({"end_attack":"nobody"})", "/end_attack"}, Refused{R"({"params":1,"attack":2})", ""}));
 
 TEST(RunIndependence, OtherLanesAndAttacksMoveNoDraw) {
   vigil::Run whole(consensus(), {9, nullptr, {}});
-  const Json alone = {{"lanes", {{"clean", nullptr}, {"drop", nullptr}, {"naive_hold", nullptr}, {"naive_zero", nullptr}, {"isolated", nullptr}}}};
+  const Json alone = {{"lanes",
+                       {{"clean", nullptr},
+                        {"drop", nullptr},
+                        {"naive_hold", nullptr},
+                        {"naive_zero", nullptr},
+                        {"isolated", nullptr}}}};
   vigil::Run few(consensus(alone), {9, nullptr, {}});
   const Json more = {{"adversary", {{"late", {{"type", "dos"}, {"on", {"link:1-2"}}, {"from", 20}}}}}};
   vigil::Run attacked(consensus(more), {9, nullptr, {}});
@@ -177,7 +189,8 @@ void expect_trace_law(const Scenario& scenario, std::uint64_t seed, const std::v
   Capture second;
   run_to_end(replayed, second);
   expect_same(simulated, first, replayed, second, "lane.");
-  EXPECT_EQ(metric(simulated.metrics(), "consensus", "rmse_position"), metric(replayed.metrics(), "consensus", "rmse_position"));
+  EXPECT_EQ(metric(simulated.metrics(), "consensus", "rmse_position"),
+            metric(replayed.metrics(), "consensus", "rmse_position"));
 }
 
 TEST(TraceLaw, HoldsForTheDefaultAndTheCompass) {
@@ -186,16 +199,26 @@ TEST(TraceLaw, HoldsForTheDefaultAndTheCompass) {
 }
 
 TEST(TraceLaw, HoldsForAttacksOnSensorsAndByHand) {
-  const Json sensors = {{"adversary", {{"glare", {{"type", "bias"}, {"on", {"sensor:4"}}, {"from", 3}, {"to", 9}, {"params", {{"vector", {30, 12}}}}}}}}};
-  const std::vector<Command> commands = {
-      {6, {{"attack", {{"id", "a1"}, {"type", "bias"}, {"on", {"link:*"}}, {"params", {{"vector", {3, -2, 1}}, {"probability", 0.5}}}}}}},
-      {8, {{"params", {{"lanes.consensus.params.tau", 0.02}}}}},
-      {15, {{"end_attack", "a1"}}}};
+  const Json sensors = {
+      {"adversary",
+       {{"glare",
+         {{"type", "bias"}, {"on", {"sensor:4"}}, {"from", 3}, {"to", 9}, {"params", {{"vector", {30, 12}}}}}}}}};
+  const std::vector<Command> commands = {{6,
+                                          {{"attack",
+                                            {{"id", "a1"},
+                                             {"type", "bias"},
+                                             {"on", {"link:*"}},
+                                             {"params", {{"vector", {3, -2, 1}}, {"probability", 0.5}}}}}}},
+                                         {8, {{"params", {{"lanes.consensus.params.tau", 0.02}}}}},
+                                         {15, {{"end_attack", "a1"}}}};
   expect_trace_law(Scenario::preset("consensus").patched(sensors), 13, commands);
 }
 
 TEST(SensorAttacks, ReachTheReceiversAndSpareTheSpared) {
-  const Json glare = {{"adversary", {{"glare", {{"type", "bias"}, {"on", {"sensor:4"}}, {"from", 3}, {"to", 9}, {"params", {{"vector", {30, 12}}}}}}}}};
+  const Json glare = {
+      {"adversary",
+       {{"glare",
+         {{"type", "bias"}, {"on", {"sensor:4"}}, {"from", 3}, {"to", 9}, {"params", {{"vector", {30, 12}}}}}}}}};
   vigil::Run plain(consensus(), {3, nullptr, {}}), attacked(consensus(glare), {3, nullptr, {}});
   Capture a, b;
   run_to_end(plain, a);
@@ -222,7 +245,10 @@ TEST(Marks, AttacksBeginAndEndOnceAndFaultsBySpell) {
   int faults = 0;
   for (const Mark& mark : capture.marks) {
     if (mark.type == MarkType::attack) (mark.edge == MarkEdge::begin ? begins : ends).push_back(mark.k);
-    faults += mark.type == MarkType::fault && mark.edge == MarkEdge::begin && mark.lane == "consensus" && mark.code == "infeasible_28" ? 1 : 0;
+    faults += mark.type == MarkType::fault && mark.edge == MarkEdge::begin && mark.lane == "consensus" &&
+                      mark.code == "infeasible_28"
+                  ? 1
+                  : 0;
   }
   EXPECT_EQ(begins, std::vector<std::int64_t>{4});
   EXPECT_EQ(ends, std::vector<std::int64_t>{7});
@@ -244,7 +270,8 @@ TEST(RunMetrics, AreThoseOfTheFrames) {
   for (std::size_t k = 1; k <= 30; ++k) {
     for (int node = 1; node <= 8; ++node) {
       const auto at = [&](const char* what) {
-        return capture.frames[k].values[static_cast<std::size_t>(run.catalogue().find("lane.consensus." + std::to_string(node) + "." + what))];
+        return capture.frames[k].values[static_cast<std::size_t>(
+            run.catalogue().find("lane.consensus." + std::to_string(node) + "." + what))];
       };
       square += at("error") * at("error") / 240;
       if (k > 20) last += at("error") * at("error") / 80;
@@ -265,18 +292,21 @@ TEST(RecordedLane, IsScoredAmongOurs) {
   Capture capture;
   run_to_end(run, capture);
   std::string csv = test::csv_of(run.catalogue(), capture.frames);
-  for (std::size_t at = csv.find("lane.isolated."); at != std::string::npos; at = csv.find("lane.isolated.", at)) csv.replace(at, 14, "lane.elsewhere.");
+  for (std::size_t at = csv.find("lane.isolated."); at != std::string::npos; at = csv.find("lane.isolated.", at))
+    csv.replace(at, 14, "lane.elsewhere.");
   vigil::Run scored(consensus(), {8, std::make_shared<Trace>(Trace::from_csv(csv)), {}});
   Capture again;
   run_to_end(scored, again);
   EXPECT_EQ(metric(scored.metrics(), "elsewhere", "rmse_position"), metric(run.metrics(), "isolated", "rmse_position"));
-  EXPECT_EQ(metric(scored.metrics(), "elsewhere", "rmse_position", "5"), metric(run.metrics(), "isolated", "rmse_position", "5"));
+  EXPECT_EQ(metric(scored.metrics(), "elsewhere", "rmse_position", "5"),
+            metric(run.metrics(), "isolated", "rmse_position", "5"));
 }
 
 TEST(TraceInput, IsRefusedWithAReason) {
   const auto refuse = [](const std::string& csv, const std::string& pointer, const char* preset) {
     try {
-      const vigil::Run run(Scenario::preset(preset), {1, csv.empty() ? nullptr : std::make_shared<Trace>(Trace::from_csv(csv)), {}});
+      const vigil::Run run(Scenario::preset(preset),
+                           {1, csv.empty() ? nullptr : std::make_shared<Trace>(Trace::from_csv(csv)), {}});
       ADD_FAILURE() << csv;
     } catch (const InputError& error) {
       EXPECT_EQ(error.problems().front().pointer, pointer) << error.what();

@@ -8,7 +8,8 @@ namespace vigil {
 /// d f / d x at x by central differences of step h; `difference` takes f's values apart (angles are wrapped there).
 /// f: VectorXd -> VectorXd; the error is of order h^2 f''' + 1e-16/h.
 template <class Function, class Difference>
-Eigen::MatrixXd central_differences(const Function& f, const Eigen::VectorXd& x, const Difference& difference, double h = 1e-5) {
+Eigen::MatrixXd central_differences(const Function& f, const Eigen::VectorXd& x, const Difference& difference,
+                                    double h = 1e-5) {
   Eigen::MatrixXd jacobian(f(x).size(), x.size());
   for (Eigen::Index c = 0; c < x.size(); ++c) {
     Eigen::VectorXd above = x, below = x;

@@ -62,7 +62,8 @@ void expect_sensor_jacobian(const Sensor& sensor, const Eigen::VectorXd& x) {
   };
   const auto apart = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     Eigen::VectorXd difference = a - b;
-    for (int c = 0; c < sensor.size(); ++c) difference[c] = wrap(difference[c], sensor.channels()[static_cast<std::size_t>(c)].period);
+    for (int c = 0; c < sensor.size(); ++c)
+      difference[c] = wrap(difference[c], sensor.channels()[static_cast<std::size_t>(c)].period);
     return difference;
   };
   Eigen::MatrixXd H(sensor.size(), x.size());
@@ -85,13 +86,16 @@ TEST(Sensors, HaveTheirJacobians) {
   }
 }
 
-// Turning the robot about the camera changes nothing that the camera sees, and the prediction carries this direction into itself: section 2.
+// Turning the robot about the camera changes nothing that the camera sees, and the prediction carries this direction
+// into itself: section 2.
 TEST(Camera, CannotSeeItsOwnRotationGauge) {
   const double kappa = std::numbers::pi / 180;
   const auto plant = plant_of("unicycle_wheels");
   const Eigen::Vector2d place(240, 160);
   const auto camera = sensor_of("camera", *plant, {{"position", {240, 160}}});
-  const auto gauge = [&](const Eigen::VectorXd& x) { return Eigen::Vector3d(-(x[1] - place[1]) * kappa, (x[0] - place[0]) * kappa, 1); };
+  const auto gauge = [&](const Eigen::VectorXd& x) {
+    return Eigen::Vector3d(-(x[1] - place[1]) * kappa, (x[0] - place[0]) * kappa, 1);
+  };
   for (int trial = 0; trial < 50; ++trial) {
     const Eigen::VectorXd x = draw("gauge", trial, 3, 120);
     Eigen::MatrixXd H(2, 3), F(3, 3);
