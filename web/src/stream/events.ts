@@ -6,6 +6,7 @@ export interface Hello {
   run: string;
   topic: string;
   resumed: boolean;
+  /** The tick after which frames follow. */
   from: number;
   head: number;
   dt: number;

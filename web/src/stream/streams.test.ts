@@ -16,11 +16,12 @@ describe('streams of a browser', () => {
     const second: StreamEvent[] = [];
     const stopFirst = streams.listen('3', 'overview', (event) => first.push(event));
     opened[0]!.say('hello', { epoch: 'e', run: '3', topic: 'overview', resumed: true, from: 1, head: 1, dt: 1, signals: [4] });
+    opened[0]!.say('frame', { k: 9, t: 9, n: 1, v: [0] });
     const stopSecond = streams.listen('3', 'overview', (event) => second.push(event));
     expect(opened).toHaveLength(1);
     // Who comes later is told how things stand, and must fetch what was before.
     expect(second.map((event) => event.type)).toEqual(['state', 'hello']);
-    expect(second[1]).toMatchObject({ hello: { signals: [4], resumed: false } });
+    expect(second[1]).toMatchObject({ hello: { signals: [4], resumed: false, from: 9 } });
     streams.listen('3', 'lane:drop', () => {});
     expect(opened.map((one) => one.url)).toEqual(['/api/v1/runs/3/stream?topic=overview', '/api/v1/runs/3/stream?topic=lane%3Adrop']);
     stopFirst();

@@ -39,7 +39,7 @@ export class Streams {
     const url = streamUrl(run, topic);
     const stream = this.shared.get(url) ?? this.start(url, run);
     if (stream.state) listener({ type: 'state', state: stream.state });
-    if (stream.hello) listener({ type: 'hello', hello: { ...stream.hello, resumed: false } });
+    if (stream.hello) listener({ type: 'hello', hello: { ...stream.hello, resumed: false, from: stream.hello.head } });
     stream.listeners.add(listener);
     return () => {
       stream.listeners.delete(listener);

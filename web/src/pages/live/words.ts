@@ -9,6 +9,7 @@ const en = {
   to_runs: 'Open the runs',
   to_scenarios: 'Open the scenarios',
   loading: 'Loading the run',
+  waiting_why: 'It has not begun yet. This page goes on by itself when it does.',
   retry: 'Try again',
   // transport
   transport: 'Transport',
@@ -186,6 +187,7 @@ const zh: Translation<typeof en> = {
   to_runs: '打开运行列表',
   to_scenarios: '打开场景',
   loading: '正在载入运行',
+  waiting_why: '运行尚未开始。开始后本页会自动继续。',
   retry: '重试',
   transport: '播放控制',
   back: '光标后退一步',
