@@ -1,7 +1,7 @@
 /// One run on the screen: its description, its streams, its marks. Samples stay in the source, outside reactive state.
 import { api } from '../../api/client';
 import { ApiProblem } from '../../api/problem';
-import { isLive, type Mark, type RunDetail, type RunState, type Signal } from '../../api/types';
+import { isLive, type Mark, type RunDetail, type RunState } from '../../api/types';
 import { loop } from '../../chart/loop';
 import { Ring } from '../../data/ring';
 import { Source } from '../../data/source';
@@ -13,7 +13,6 @@ import type { LiveView } from './view.svelte';
 
 const refreshMs = 2000;
 const statusMs = 250;
-const describeMs = 700;
 const awaitMs = 400;
 const maxGap = 12_000;
 const fillAgainMs = 700;
@@ -67,7 +66,7 @@ export class Session {
   async load(): Promise<void> {
     this.failure = null;
     try {
-      const [run, signals] = await this.described();
+      const [run, signals] = await Promise.all([api.run(this.id), api.signals(this.id)]);
       if (this.closed) return;
       // A run that waits for its turn or is being made ready has no signals yet.
       if (signals.length === 0 && isLive(run.state)) {
@@ -85,16 +84,6 @@ export class Session {
       this.tick();
     } catch (error) {
       this.failure = error;
-    }
-  }
-
-  /** A run that waits for its turn, or computes its design, has no signals yet: asked again until it has. */
-  private async described(): Promise<[RunDetail, Signal[]]> {
-    for (;;) {
-      const [run, signals] = await Promise.all([api.run(this.id), api.signals(this.id)]);
-      if (signals.length || !isLive(run.state) || this.closed) return [run, signals];
-      this.run = run;
-      await new Promise((resolve) => setTimeout(resolve, describeMs));
     }
   }
 
