@@ -22,11 +22,11 @@ void LinkEffects::jam(int link) {
   injected.col(link).setZero();
 }
 
-void LinkEffects::inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added) {
+void LinkEffects::inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added, double scale) {
   LinkState& mine = state[static_cast<std::size_t>(link)];
   if (mine == LinkState::dos) return;
   mine = LinkState::fdi;
-  injected.col(link) += added;
+  injected.col(link) += scale * added;
 }
 
 void SensorEffects::resize(const std::vector<int>& channels) {

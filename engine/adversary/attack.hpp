@@ -26,8 +26,8 @@ struct LinkEffects {
   void clear();
   /// A jammed channel carries nothing, whatever else was injected on it.
   void jam(int link);
-  /// Adds to what the channel carries, unless it is jammed.
-  void inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added);
+  /// Adds scale * added to what the channel carries, unless it is jammed.
+  void inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added, double scale = 1);
 };
 
 /// Where an attack acts on sensors: a node, and one of its channels or (-1) the whole reading.

@@ -48,7 +48,7 @@ class DosFdi final : public Attack {
         effects.jam(link);
         effects.strength[link] = s;
       } else if (u < pdos_ + pfdi_) {
-        effects.inject(link, (constant_ ? 1.0 : std::sin(s)) * direction_);  // xi_ij = sin(s_ij) xi_dir
+        effects.inject(link, direction_, constant_ ? 1.0 : std::sin(s));  // xi_ij = sin(s_ij) xi_dir
         effects.strength[link] = s;
       }
     }

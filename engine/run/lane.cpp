@@ -65,7 +65,18 @@ Lane::Lane(const Lane& other)
       rmse_slot_(other.rmse_slot_),
       spread_slot_(other.spread_slot_),
       recording_(other.recording_),
-      record_(other.record_) {}
+      record_(other.record_) {
+  record_.errors.reserve(other.record_.errors.capacity());
+  record_.bounds.reserve(other.record_.bounds.capacity());
+}
+
+void Lane::record_bounds(std::int64_t ticks) {
+  recording_ = method_->has_bound();
+  if (!recording_) return;
+  const std::size_t cells = static_cast<std::size_t>(ticks) * outputs_.size(), n = periods_.size();
+  record_.errors.reserve(cells * n);
+  record_.bounds.reserve(cells * n * n);
+}
 
 void Lane::declare(const Plant& plant, Catalogue& catalogue) {
   LaneScope scope(id_, outputs_, catalogue);

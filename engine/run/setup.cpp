@@ -302,7 +302,7 @@ void Run::State::declare_signals() {
   for (Lane& lane : lanes) lane.declare(*plant, catalogue);
   frame.values.assign(static_cast<std::size_t>(catalogue.size()), kMissing);
   if (last_tick && *last_tick * static_cast<std::int64_t>(nodes.size()) <= kRecordLimit) {
-    for (Lane& lane : lanes) lane.record_bounds();
+    for (Lane& lane : lanes) lane.record_bounds(*last_tick);
   }
 }
 
