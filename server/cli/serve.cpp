@@ -26,7 +26,8 @@ bool is_loopback(const std::string& host) {
   return host == "localhost" || host == "::1" || host == "[::1]" || host.rfind("127.", 0) == 0;
 }
 
-/// Beside the executable (an own folder, or the source tree's two levels up), else where it is installed.
+/// Beside the executable (an own folder, an installed tree's share/, or the source tree's two levels up), else where it
+/// was to be installed.
 std::optional<std::filesystem::path> find_page(const std::string& wanted) {
   namespace fs = std::filesystem;
   if (!wanted.empty()) {
@@ -35,7 +36,8 @@ std::optional<std::filesystem::path> find_page(const std::string& wanted) {
   }
   std::error_code error;
   const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {beside / "web", beside / "../../web/dist", fs::path(VIGIL_INSTALLED_WEB)}) {
+  for (const fs::path& folder :
+       {beside / "web", beside / "../share/vigil/web", beside / "../../web/dist", fs::path(VIGIL_INSTALLED_WEB)}) {
     if (fs::exists(folder / "index.html", error)) return fs::weakly_canonical(folder);
   }
   return std::nullopt;
