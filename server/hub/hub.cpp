@@ -62,7 +62,14 @@ struct Hub::State {
 };
 
 Hub::Hub(HubOptions options) : state_(std::make_unique<State>(std::move(options))) {}
-Hub::~Hub() = default;
+Hub::~Hub() {
+  // A viewer holds its feed and the feed its viewers: whoever was not detached is let go here.
+  const auto release = [](Feed& feed) { feed.viewers.clear(); };
+  release(*state_->global);
+  for (const auto& [run, feed] : state_->open) release(*feed);
+  for (const auto& feed : state_->closing) release(*feed);
+  for (const auto& feed : state_->scratch) release(*feed);
+}
 
 void Hub::open(std::int64_t run, const Catalogue& catalogue, std::vector<HubTopic> topics, double dt) {
   close(run, "interrupted");

@@ -83,7 +83,9 @@ TEST_F(DataTest, MarksAreFilteredAndPaged) {
   ASSERT_EQ(states.size(), 2u);
   EXPECT_EQ(states[0].at("code"), "running");
   EXPECT_EQ(states[1].at("code"), "finished");
-  for (const Json& mark : client_->get(path_ + "/marks?type=fault&from=2&to=2&lane=consensus").json.at("items")) {
+  const Json faults = client_->get(path_ + "/marks?type=fault&from=2&to=2&lane=consensus").json.at("items");
+  EXPECT_FALSE(faults.empty());
+  for (const Json& mark : faults) {
     EXPECT_EQ(mark.at("k"), 2);
     EXPECT_EQ(mark.at("lane"), "consensus");
   }
