@@ -40,7 +40,8 @@ class Lane {
   const FaultTable& faults() const { return faults_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
   const LaneScore& score() const { return score_; }
-  /// Keeps errors and bounds of ticks 1 to `ticks` for a campaign's bound ratio; room for them is made here, none in a tick.
+  /// Keeps errors and bounds of ticks 1 to `ticks` for a campaign's bound ratio; room for them is made here, none in a
+  /// tick.
   void record_bounds(std::int64_t ticks);
   BoundRecord take_record() { return std::move(record_); }
 
