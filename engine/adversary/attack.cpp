@@ -29,20 +29,25 @@ void LinkEffects::inject(int link, const Eigen::Ref<const Eigen::VectorXd>& adde
   injected.col(link) += scale * added;
 }
 
+const char* word(SensorState state) {
+  static constexpr const char* kWords[] = {"clean", "DoS", "FDI", "replay", "I", "II", "R"};
+  return kWords[static_cast<std::size_t>(state)];
+}
+
 void SensorEffects::resize(const std::vector<int>& channels) {
   injected.clear();
   for (const int size : channels) injected.emplace_back(Eigen::VectorXd::Zero(size));
-  kind.assign(channels.size(), 0);
+  state.assign(channels.size(), SensorState::clean);
 }
 
 void SensorEffects::clear() {
   for (Eigen::VectorXd& value : injected) value.setZero();
-  std::fill(kind.begin(), kind.end(), 0);
+  std::fill(state.begin(), state.end(), SensorState::clean);
 }
 
-void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, int attack_kind) {
+void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, SensorState as) {
   const auto node = static_cast<std::size_t>(place.node);
-  kind[node] = attack_kind;
+  state[node] = as;
   if (place.channel >= 0) {
     injected[node][place.channel] += added[0];
   } else {
@@ -50,9 +55,9 @@ void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::
   }
 }
 
-void SensorEffects::set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, int attack_kind) {
+void SensorEffects::set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, SensorState as) {
   injected[static_cast<std::size_t>(node)] = value;
-  kind[static_cast<std::size_t>(node)] = attack_kind;
+  state[static_cast<std::size_t>(node)] = as;
 }
 
 }  // namespace vigil

@@ -36,16 +36,23 @@ struct SensorPlace {
   int channel = -1;
 };
 
+/// What happens to a sensor's readings. The first four are those of a link; the others are types of false data that
+/// the metrics keep apart (seed 001, Table 1).
+enum class SensorState : std::uint8_t { clean = 0, dos = 1, fdi = 2, replay = 3, type_i = 4, type_ii = 5, type_r = 6 };
+
+/// The word of a state: "clean", "DoS", "FDI", "replay", "I", "II", "R".
+const char* word(SensorState state);
+
 /// What happens to every reading in one tick, on its way to the receivers.
 struct SensorEffects {
   std::vector<Eigen::VectorXd> injected;  ///< one a node, zero where nothing is injected
-  std::vector<int> kind;                  ///< one a node: 0 not attacked, else a number that the attack gives its type
+  std::vector<SensorState> state;         ///< one a node
 
   void resize(const std::vector<int>& channels);
   void clear();
-  void add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, int attack_kind);
+  void add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, SensorState as);
   /// Replaces what earlier attacks injected at this node: for attacks of which the later start wins.
-  void set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, int attack_kind);
+  void set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, SensorState as);
 };
 
 /// What a receiver may know of a channel's statistics: the published probabilities and the bound, never a realisation.

@@ -29,7 +29,7 @@ class Bias final : public Attack {
     for (const SensorPlace& place : places) {
       // Sensors draw apart from links: indices from 2^16 on, 64 a node.
       const auto index = static_cast<std::uint32_t>(0x10000 + place.node * 64 + place.channel + 1);
-      if (branch_.bernoulli(k, index, probability_)) effects.add(place, vector_, 1);
+      if (branch_.bernoulli(k, index, probability_)) effects.add(place, vector_, SensorState::fdi);
     }
   }
 

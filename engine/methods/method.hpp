@@ -30,6 +30,8 @@ struct Knowledge {
   Eigen::MatrixXd P0;            ///< covariance of the initial estimates
   Eigen::MatrixXd estimates;     ///< initial estimates, states x nodes
   std::vector<LinkRates> rates;  ///< one a link: the adversary's published statistics (zero for a lane that is spared)
+  double dt = 1;                 ///< s
+  std::uint64_t seed = 0;        ///< of a method's own draws: Draws(seed, "method.<what>"), the same for every lane
 };
 
 /// What a node received on one link in one exchange round.
@@ -49,6 +51,14 @@ struct Belief {
   const double* innovation = nullptr;  ///< innovation_size values; null in a tick without a reading
   const double* innovation_covariance = nullptr;  ///< column-major
   int innovation_size = 0;
+};
+
+/// The attack that an output finds on its own sensor, over its last `window` readings: views valid until the method's
+/// next call. Null: none was sought in this tick.
+struct Reconstruction {
+  const double* entries = nullptr;  ///< channels x window, newest reading last; exactly zero where no attack is found
+  int channels = 0;
+  int window = 0;
 };
 
 /// Where a method reports what went wrong. Counted by node and code.
@@ -78,7 +88,7 @@ struct OwnMetric {
   bool boolean = false;
 };
 
-/// One tick of the lane calls predict, then (for message() > 0) send at every node, then update, then publish.
+/// One tick of the lane calls predict, measure, then (for message() > 0) send at every node, then update, then publish.
 class Method {
  public:
   virtual ~Method() = default;
@@ -89,11 +99,18 @@ class Method {
   virtual void declare(SignalScope& /*scope*/) {}
 
   virtual void predict(const Eigen::VectorXd& input, FaultReport& report) = 0;
+  /// What a node does with its own reading before it speaks to others.
+  virtual void measure(const Readings& /*readings*/, FaultReport& /*report*/) {}
   virtual void send(int /*node*/, Eigen::Ref<Eigen::VectorXd> /*message*/) const {}
   /// `inbox` has one delivery a link of the graph.
-  virtual void update(const Readings& readings, std::span<const Delivery> inbox, FaultReport& report) = 0;
+  virtual void update(const Readings& /*readings*/, std::span<const Delivery> /*inbox*/, FaultReport& /*report*/) {}
 
   virtual Belief belief(int output) const = 0;
+  /// Readings that its reconstructions span; 0: it makes none.
+  virtual int window() const { return 0; }
+  virtual Reconstruction reconstruction(int /*output*/) const { return {}; }
+  /// The node whose estimate this output took in this tick, itself included; -1: it does not choose.
+  virtual int choice(int /*output*/) const { return -1; }
   /// Writes its own signals of this tick (tick 0: the initial state) into the frame.
   virtual void publish(std::span<double> values) const { static_cast<void>(values); }
 

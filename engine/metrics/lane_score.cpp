@@ -37,11 +37,12 @@ void LaneScore::Sum::add(double value) {
 
 double LaneScore::Sum::mean() const { return count == 0 ? kNone : total / static_cast<double>(count); }
 
-LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreWindow window)
-    : window_(window), groups_(plant.errors()), outputs_(std::move(outputs)) {
+LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreRules rules)
+    : rules_(std::move(rules)), groups_(plant.errors()), outputs_(std::move(outputs)) {
   for (const Component& component : plant.state()) periods_.push_back(component.period);
   sums_.resize(outputs_.size() * groups_.size());
   last_.resize(outputs_.size() * kWindow);
+  mse_.resize(outputs_.size() * rules_.mse.size());
 }
 
 TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& truth, const Belief& belief) {
@@ -51,13 +52,17 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
     double square = 0;
     for (const int c : groups_[static_cast<std::size_t>(g)].components) square += e[c] * e[c];
     score.error[g] = std::sqrt(square);
-    if (!window_.holds(k)) continue;
+    if (!rules_.window.holds(k)) continue;
     cell(output, g).add(square);
     if (g == 0) {
       Sum& slot = last_[static_cast<std::size_t>(output * kWindow + static_cast<int>(k % kWindow))];
       slot = {};
       slot.add(square);
     }
+  }
+  for (std::size_t f = 0; f < rules_.mse.size(); ++f) {
+    const double value = e[rules_.mse[f].component];
+    if (rules_.mse[f].window.holds(k)) mse_[f * outputs_.size() + static_cast<std::size_t>(output)].add(value * value);
   }
   score.nees = belief.covariance == nullptr ? kNone : inverse_form(belief.covariance, e);
   score.nis = kNone;
@@ -66,7 +71,7 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
     score.nis = belief.innovation_covariance == nullptr ? r.squaredNorm()
                                                         : inverse_form(belief.innovation_covariance, BoundedVector(r));
   }
-  if (window_.holds(k)) {
+  if (rules_.window.holds(k)) {
     nees_.add(score.nees);
     nis_.add(score.nis);
   }
@@ -100,6 +105,10 @@ void LaneScore::append_metrics(const std::string& lane, std::vector<MetricValue>
             std::sqrt(cell(static_cast<int>(o), g).mean()));
       }
     }
+  }
+  for (std::size_t f = 0; f < rules_.mse.size(); ++f) {
+    for (std::size_t o = 0; o < outputs_.size(); ++o)
+      add(outputs_[o], rules_.mse[f].name, mse_[f * outputs_.size() + o].mean());
   }
   if (nees_.count > 0) add("", "nees_mean", nees_.mean());
   if (nis_.count > 0) add("", "nis_mean", nis_.mean());

@@ -28,6 +28,20 @@ struct ScoreWindow {
   bool holds(std::int64_t k) const { return k >= 1 && k >= from && k <= to; }
 };
 
+/// A figure that the scenario asks for: the mean square error of one state component at each output, over ticks of its
+/// own.
+struct MseFigure {
+  std::string name;
+  int component = 0;
+  ScoreWindow window;
+};
+
+/// What the scenario's "metrics" say.
+struct ScoreRules {
+  ScoreWindow window;
+  std::vector<MseFigure> mse;
+};
+
 /// Sums over the ticks of one lane's window. A value: copies are forks.
 class LaneScore {
  public:
@@ -35,12 +49,13 @@ class LaneScore {
   static constexpr int kWindow = 10;  ///< ticks of rmse_position_last10
 
   LaneScore() = default;
-  LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreWindow window = {});
+  LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreRules rules = {});
 
   /// Judges one output; the truth may have NaN. Counts it where the window holds k.
   TickScore judge(std::int64_t k, int output, const Eigen::VectorXd& truth, const Belief& belief);
 
-  /// rmse_<group> (whole lane and per output), rmse_<first group>_last10, nees_mean, nis_mean.
+  /// rmse_<group> (whole lane and per output), rmse_<first group>_last10, the scenario's own figures, nees_mean,
+  /// nis_mean.
   void append_metrics(const std::string& lane, std::vector<MetricValue>& metrics) const;
   /// Chi-square intervals (95 %) of one NEES and one NIS, for the lane's design.
   Json bounds(int channels) const;
@@ -56,12 +71,13 @@ class LaneScore {
   const Sum& cell(int output, int group) const { return sums_[static_cast<std::size_t>(output * groups() + group)]; }
   int groups() const { return static_cast<int>(groups_.size()); }
 
-  ScoreWindow window_;
+  ScoreRules rules_;
   std::vector<ErrorGroup> groups_;
   std::vector<double> periods_;
   std::vector<std::string> outputs_;
   std::vector<Sum> sums_;  ///< squared errors, outputs x groups
   std::vector<Sum> last_;  ///< squared errors of the first group in the last ticks, outputs x kWindow
+  std::vector<Sum> mse_;   ///< of each figure in rules_, figures x outputs
   Sum nees_, nis_;
 };
 

@@ -33,14 +33,15 @@ std::string square_unit(const std::string& unit) { return unit.empty() ? "" : un
 }  // namespace
 
 Lane::Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params,
-           const Plant& plant, const Graph& graph, ScoreWindow window)
+           const Plant& plant, const std::vector<int>& channels, const Graph& graph, const ScoreRules& rules)
     : id_(std::move(id)),
       method_id_(std::move(method_id)),
       spared_(spared),
       method_(std::move(method)),
       params_(std::move(params)),
       outputs_(method_->outputs()),
-      score_(plant, outputs_, window) {
+      score_(plant, outputs_, rules),
+      attack_score_(channels, method_->window(), static_cast<int>(outputs_.size())) {
   for (const Component& component : plant.state()) periods_.push_back(component.period);
   inbox_.resize(method_->message() > 0 ? graph.links().size() : 0);
   for (Delivery& delivery : inbox_) delivery.payload = Eigen::VectorXd::Zero(method_->message());
@@ -60,6 +61,7 @@ Lane::Lane(const Lane& other)
       sent_(other.sent_),
       faults_(other.faults_),
       score_(other.score_),
+      attack_score_(other.attack_score_),
       periods_(other.periods_),
       slots_(other.slots_),
       rmse_slot_(other.rmse_slot_),
@@ -119,12 +121,20 @@ void Lane::tick(std::int64_t k, const Graph& graph, std::span<const int> base, c
   faults_.begin_tick(k);
   method_->predict(input, faults_);
   if (stopped()) return;
+  method_->measure(readings, faults_);
+  if (stopped()) return;
   if (method_->message() > 0) exchange(graph, base, effects);
   method_->update(readings, inbox_, faults_);
 }
 
-void Lane::publish(std::int64_t k, const Eigen::VectorXd& truth, const Plant& plant, std::span<double> values) {
+void Lane::publish(std::int64_t k, const Eigen::VectorXd& truth, const SensorEffects& attacks, const Plant& plant,
+                   std::span<double> values) {
   if (stopped()) return;
+  if (k > 0 && method_->window() > 0) {
+    attack_score_.note(attacks);
+    for (int o = 0; o < static_cast<int>(outputs_.size()); ++o)
+      attack_score_.judge(o, method_->reconstruction(o), method_->choice(o));
+  }
   double square = 0;
   for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) publish_output(k, o, truth, plant, values, square);
   values[static_cast<std::size_t>(rmse_slot_)] = std::sqrt(square / static_cast<double>(outputs_.size()));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/methods/method.hpp"
+#include "engine/metrics/attack_score.hpp"
 #include "engine/metrics/bound_ratio.hpp"
 #include "engine/metrics/lane_score.hpp"
 #include "engine/run/fault_table.hpp"
@@ -15,9 +16,9 @@ namespace vigil {
 
 class Lane {
  public:
-  /// `spared`: the adversary does not touch it.
+  /// `spared`: the adversary does not touch it. `channels`: of each node's sensor.
   Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params,
-       const Plant& plant, const Graph& graph, ScoreWindow window);
+       const Plant& plant, const std::vector<int>& channels, const Graph& graph, const ScoreRules& rules);
   Lane(const Lane& other);
   Lane(Lane&&) noexcept = default;
 
@@ -26,7 +27,9 @@ class Lane {
   void tick(std::int64_t k, const Graph& graph, std::span<const int> base, const LinkEffects& effects,
             const Eigen::VectorXd& input, const Readings& readings);
   /// Scores against the truth and writes the lane's signals (NaN once it has stopped).
-  void publish(std::int64_t k, const Eigen::VectorXd& truth, const Plant& plant, std::span<double> values);
+  /// `attacks`: what really happened to the readings that this lane heard.
+  void publish(std::int64_t k, const Eigen::VectorXd& truth, const SensorEffects& attacks, const Plant& plant,
+               std::span<double> values);
   void rewire(const Graph& graph, const std::vector<LinkRates>& rates);
 
   const std::string& id() const { return id_; }
@@ -40,6 +43,7 @@ class Lane {
   const FaultTable& faults() const { return faults_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
   const LaneScore& score() const { return score_; }
+  const AttackScore& attack_score() const { return attack_score_; }
   /// Keeps errors and bounds of ticks 1 to `ticks` for a campaign's bound ratio; room for them is made here, none in a
   /// tick.
   void record_bounds(std::int64_t ticks);
@@ -64,6 +68,7 @@ class Lane {
   Eigen::MatrixXd sent_;  ///< message size x nodes
   FaultTable faults_;
   LaneScore score_;
+  AttackScore attack_score_;
   std::vector<double> periods_;
   std::vector<Slots> slots_;
   int rmse_slot_ = -1, spread_slot_ = -1;

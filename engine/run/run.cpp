@@ -61,6 +61,7 @@ std::vector<MetricValue> Run::metrics() const {
   std::vector<MetricValue> metrics;
   for (const Lane& lane : state_->lanes) {
     lane.score().append_metrics(lane.id(), metrics);
+    lane.attack_score().append_metrics(lane.id(), lane.outputs(), metrics);
     for (const OwnMetric& own : lane.method().metrics()) {
       metrics.push_back({lane.id(), own.output >= 0 ? lane.outputs()[static_cast<std::size_t>(own.output)] : "",
                          own.name, "", own.value, own.boolean});

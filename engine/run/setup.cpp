@@ -45,13 +45,38 @@ int node_index(const Json& id, const std::vector<std::string>& nodes, const std:
   throw InputError(pointer, fmt::format("there is no node \"{}\"", name));
 }
 
-ScoreWindow read_window(const Json& document) {
+ScoreWindow read_window(const Json& given) {
   ScoreWindow window;
-  const Json metrics = document.value("metrics", Json::object());
-  if (!metrics.contains("window")) return window;
-  window.from = metrics["window"].value("from", window.from);
-  if (metrics["window"]["to"].is_number()) window.to = metrics["window"]["to"].get<std::int64_t>();
+  window.from = given.value("from", window.from);
+  const Json to = given.value("to", Json(nullptr));
+  if (to.is_number()) window.to = to.get<std::int64_t>();
   return window;
+}
+
+/// The document's "metrics". Throws InputError where a figure names a component that the plant has not.
+ScoreRules read_rules(const Json& metrics, const Plant& plant) {
+  ScoreRules rules;
+  rules.window = read_window(metrics.value("window", Json::object()));
+  const Json figures = metrics.value("mse", Json::object());
+  for (const auto& [name, figure] : figures.items()) {
+    const auto component = figure.at("component").get<std::string>();
+    std::vector<std::string> names;
+    for (const Component& c : plant.state()) names.push_back(c.name);
+    const auto found = std::find(names.begin(), names.end(), component);
+    if (found == names.end()) {
+      throw InputError("/metrics/mse/" + name + "/component",
+                       fmt::format("component is \"{}\", which is no state of the plant", component),
+                       fmt::format("{}", fmt::join(names, ", ")));
+    }
+    rules.mse.push_back({name, static_cast<int>(found - names.begin()), read_window(figure)});
+  }
+  return rules;
+}
+
+std::vector<int> channel_counts(const std::vector<std::shared_ptr<const Sensor>>& sensors) {
+  std::vector<int> counts;
+  for (const auto& sensor : sensors) counts.push_back(sensor->size());
+  return counts;
 }
 
 }  // namespace
@@ -128,9 +153,9 @@ void Run::State::set_world(const Json& document) {
   if (!base.connected() && !base.links().empty())
     warnings.emplace_back("the network is not connected: its parts never hear of each other");
   effects.resize(n, static_cast<int>(base.links().size()));
-  std::vector<int> sizes;
-  for (const auto& sensor : sensors) sizes.push_back(sensor->size());
+  const std::vector<int> sizes = channel_counts(sensors);
   sensor_effects.resize(sizes);
+  no_sensor_effects.resize(sizes);
   received = readings;
   process_noise = Draws(seed, "plant");
   input = Eigen::VectorXd::Constant(plant->inputs(), kMissing);
@@ -153,6 +178,11 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::
                      "the trace has no truth in its first row, so initial.truth or initial.estimates must be given");
   }
   const Eigen::MatrixXd root = symmetric_root(P0);
+  if (initial.value("x0_random", false) && !trace) {
+    Eigen::VectorXd draw(n);
+    Draws(seed, "initial.truth").normals(0, draw);
+    truth += root * draw;
+  }
   Eigen::MatrixXd result(n, static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
@@ -176,6 +206,8 @@ void Run::State::set_lanes(const Json& document) {
   const Json& noise_document = document["noise"];
   Knowledge knowledge;
   knowledge.plant = plant;
+  knowledge.dt = dt;
+  knowledge.seed = seed;
   knowledge.sensors = sensors;
   knowledge.nodes = nodes;
   knowledge.graph = graph;
@@ -184,7 +216,7 @@ void Run::State::set_lanes(const Json& document) {
   Q_root = symmetric_root(knowledge.Q);
   knowledge.estimates = initial_estimates(document.value("initial", Json::object()), knowledge.P0);
   const std::vector<LinkRates> published = adversary.rates(graph);
-  const ScoreWindow window = read_window(document);
+  const ScoreRules rules = read_rules(document.value("metrics", Json::object()), *plant);
   for (const auto& [id, lane] : document["lanes"].items()) {
     if (!lane.value("enabled", true)) continue;
     const std::string pointer = "/lanes/" + id;
@@ -193,7 +225,8 @@ void Run::State::set_lanes(const Json& document) {
     const std::string method = lane["method"].get<std::string>();
     const auto& entry = entry_of<MethodMake>(method, pointer + "/method");
     auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
-    lanes.emplace_back(id, method, spared, std::move(made), lane["params"], *plant, graph, window);
+    lanes.emplace_back(id, method, spared, std::move(made), lane["params"], *plant, channel_counts(sensors), graph,
+                       rules);
   }
   if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");
 }
@@ -201,8 +234,9 @@ void Run::State::set_lanes(const Json& document) {
 void Run::State::set_recorded_lanes() {
   for (auto& recorded : find_recorded_lanes(trace, scenario.document()["lanes"], *plant)) {
     std::string id = recorded.lane;
-    lanes.emplace_back(std::move(id), "recorded", true, std::move(recorded.method), Json::object(), *plant, graph,
-                       read_window(scenario.document()));
+    lanes.emplace_back(std::move(id), "recorded", true, std::move(recorded.method), Json::object(), *plant,
+                       channel_counts(sensors), graph,
+                       read_rules(scenario.document().value("metrics", Json::object()), *plant));
   }
 }
 
@@ -218,7 +252,10 @@ void Run::State::declare_signals() {
   slots.input = catalogue.size();
   for (const Component& c : plant->input()) add("input." + c.name, c.unit, SignalKind::scalar, "", "");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    slots.sensor.push_back(catalogue.size());
+    Signal state{.name = "sensor." + nodes[i] + ".state", .kind = SignalKind::category, .node = nodes[i]};
+    for (int s = 0; s <= static_cast<int>(SensorState::type_r); ++s)
+      state.labels.emplace_back(s, word(static_cast<SensorState>(s)));
+    slots.sensor.push_back(catalogue.add(std::move(state)));
     for (const Component& c : sensors[i]->channels()) {
       for (const char* form : {"", ".sent", ".injected"}) {
         add("sensor." + nodes[i] + "." + c.name + form, c.unit, SignalKind::scalar, nodes[i], "");

@@ -8,16 +8,17 @@
 namespace vigil {
 namespace {
 
-/// A link's state is one of the four of the contract, or missing.
-void check_states(const Trace& trace, int column) {
+/// The state of a link (0 to 3, as the contract has it) or of a sensor (0 to 6) is one of those, or missing.
+void check_states(const Trace& trace, int column, int last) {
   for (std::int64_t k = trace.first_tick(); k < trace.first_tick() + trace.rows(); ++k) {
     const double state = trace.at(k, column);
-    if (std::isnan(state) || state == 0 || state == 1 || state == 2 || state == 3) continue;
+    if (std::isnan(state) || (state >= 0 && state <= last && state == std::floor(state))) continue;
+    std::string allowed;
+    for (int s = 0; s <= last; ++s)
+      allowed += fmt::format("{}{} {}", s == 0 ? "" : ", ", s, word(static_cast<SensorState>(s)));
     const std::string& name = trace.columns()[static_cast<std::size_t>(column)];
-    throw InputError(
-        "/input/trace",
-        fmt::format("{} is {} at tick {}; expected 0 clean, 1 DoS, 2 FDI, 3 replay or nothing", name, state, k),
-        "0, 1, 2, 3");
+    throw InputError("/input/trace",
+                     fmt::format("{} is {} at tick {}; expected {} or nothing", name, state, k, allowed), allowed);
   }
 }
 
@@ -43,6 +44,9 @@ void Run::State::find_columns() {
   for (const Component& c : plant->input()) columns.input.push_back(find("input." + c.name));
   bool any = false;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    columns.sensor_state.push_back(find("sensor." + nodes[i] + ".state"));
+    if (columns.sensor_state.back() >= 0)
+      check_states(*trace, columns.sensor_state.back(), static_cast<int>(SensorState::type_r));
     for (auto* group : {&columns.sensor, &columns.sent, &columns.tampered}) group->emplace_back();
     for (const Component& c : sensors[i]->channels()) {
       const std::string name = "sensor." + nodes[i] + "." + c.name;
@@ -56,7 +60,8 @@ void Run::State::find_columns() {
     const std::string name =
         "link." + nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
     columns.link_state.push_back(find(name + ".state"));
-    if (columns.link_state.back() >= 0) check_states(*trace, columns.link_state.back());
+    if (columns.link_state.back() >= 0)
+      check_states(*trace, columns.link_state.back(), static_cast<int>(LinkState::replay));
     columns.injected.emplace_back();
     for (const Component& c : plant->state()) columns.injected.back().push_back(find(name + ".injected." + c.name));
   }

@@ -19,6 +19,7 @@ namespace vigil {
 struct TraceColumns {
   std::vector<int> truth, input;
   std::vector<std::vector<int>> sensor, sent, tampered;  ///< node, channel: as received, honest, added by the adversary
+  std::vector<int> sensor_state;                         ///< node
   std::vector<int> link_state;                           ///< base link
   std::vector<std::vector<int>> injected;                ///< base link, component
 };
@@ -26,9 +27,8 @@ struct TraceColumns {
 /// Ids of the world's signals.
 struct WorldSlots {
   int truth = 0, input = 0;
-  std::vector<int>
-      sensor;  ///< one a node: received, honest (.sent) and added (.injected) of the first channel, then of the next
-  std::vector<int> link;  ///< state, then injected components, then strength; one a base link
+  std::vector<int> sensor;  ///< one a node: state, then received, honest (.sent) and added (.injected) of each channel
+  std::vector<int> link;    ///< state, then injected components, then strength; one a base link
 };
 
 /// Live values of one command for one lane or attack.
@@ -79,6 +79,7 @@ struct Run::State {
   Readings received;  ///< as they arrive, after the adversary
   LinkEffects effects;
   SensorEffects sensor_effects;
+  SensorEffects no_sensor_effects;  ///< what a spared lane's readings went through
   Frame frame;
 
  private:

@@ -32,7 +32,7 @@ void Run::State::step(Sink& sink) {
   frame.t = static_cast<double>(k) * dt;
   publish_world();
   for (Lane& lane : lanes) {
-    lane.publish(k, truth, *plant, frame.values);
+    lane.publish(k, truth, lane.spared() ? no_sensor_effects : sensor_effects, *plant, frame.values);
     lane.faults().mark_edges(lane.id(), lane.outputs(), sink);
   }
   // A plant may overflow (a document can ask for 1e300): a frame says that as missing, never as infinity.
@@ -82,7 +82,7 @@ void Run::State::sense() {
 void Run::State::deliver_readings() {
   for (std::size_t i = 0; i < readings.size(); ++i) {
     received[i] = readings[i];
-    if (sensor_effects.kind[i] == 0) continue;
+    if (sensor_effects.state[i] == SensorState::clean) continue;
     for (Eigen::Index c = 0; c < received[i].size(); ++c) {
       const double period = sensors[i]->channels()[static_cast<std::size_t>(c)].period;
       received[i][c] = wrap(readings[i][c] + sensor_effects.injected[i][c], period);
@@ -90,23 +90,26 @@ void Run::State::deliver_readings() {
   }
 }
 
-/// A sensor whose `injected` columns the trace has bypasses the adversary: the reading is there as received, and beside
-/// it the honest one.
+/// A sensor whose `injected` or `state` columns the trace has bypasses the adversary: the reading is there as received,
+/// and beside it the honest one.
 void Run::State::override_sensors() {
+  const auto read = [&](int column) { return column < 0 ? kMissing : trace->at(k, column); };
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    bool described = false;
+    bool described = columns.sensor_state[i] >= 0;
     for (const int column : columns.tampered[i]) described = described || column >= 0;
     if (!described) continue;
-    sensor_effects.kind[i] = 0;
+    bool tampered = false;
     for (Eigen::Index c = 0; c < readings[i].size(); ++c) {
       const auto channel = static_cast<std::size_t>(c);
-      const auto read = [&](int column) { return column < 0 ? kMissing : trace->at(k, column); };
       const double added = read(columns.tampered[i][channel]), honest = read(columns.sent[i][channel]);
       received[i][c] = read(columns.sensor[i][channel]);
       readings[i][c] = std::isfinite(honest) ? honest : received[i][c];
       sensor_effects.injected[i][c] = std::isfinite(added) ? added : 0;
-      if (sensor_effects.injected[i][c] != 0) sensor_effects.kind[i] = 1;
+      tampered = tampered || sensor_effects.injected[i][c] != 0;
     }
+    const double state = read(columns.sensor_state[i]);
+    sensor_effects.state[i] = tampered ? SensorState::fdi : SensorState::clean;
+    if (std::isfinite(state)) sensor_effects.state[i] = static_cast<SensorState>(static_cast<int>(state));
   }
 }
 
@@ -135,8 +138,9 @@ void Run::State::publish_world() {
   if (k == 0) return;
   for (Eigen::Index c = 0; c < input.size(); ++c) values[slots.input + c] = input[c];
   for (std::size_t i = 0; i < readings.size(); ++i) {
+    values[slots.sensor[i]] = static_cast<double>(sensor_effects.state[i]);
     for (Eigen::Index c = 0; c < readings[i].size(); ++c) {
-      double* at = values + slots.sensor[i] + 3 * c;
+      double* at = values + slots.sensor[i] + 1 + 3 * c;
       at[0] = received[i][c];
       if (readings[i][c] != received[i][c]) at[1] = readings[i][c];
       at[2] = sensor_effects.injected[i][c];

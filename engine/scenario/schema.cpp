@@ -171,7 +171,14 @@ Json metrics() {
   const Json window =
       object({{"from", leaf(tick(0, false), {"First tick scored", "评分起始步"}, 0)},
               {"to", leaf(tick(0, true), {"Last tick scored; none: the last", "评分结束步；无：最后一步"}, nullptr)}});
-  return leaf(object({{"window", leaf(window, {"Ticks that are scored", "评分区间"})}}), {"Metrics", "指标"});
+  const Json component = leaf(text(), {"State component", "状态分量"});
+  Json figure =
+      object({{"component", component}, {"from", window["properties"]["from"]}, {"to", window["properties"]["to"]}},
+             Json::array({"component"}));
+  const Json mse = leaf(schema::map("^mse_[a-z0-9_]{1,28}$", std::move(figure), 0, 32),
+                        {"Mean square errors of single components, by name", "单个分量的均方误差，按名称"});
+  return leaf(object({{"window", leaf(window, {"Ticks that are scored", "评分区间"})}, {"mse", mse}}),
+              {"Metrics", "指标"});
 }
 
 Json log() {

@@ -54,17 +54,56 @@ Json time(const Json& given, std::vector<Problem>& problems) {
   return {{"dt", fields.positive("dt", 1, false)}, {"steps", fields.integer("steps", nullptr, 1, true)}};
 }
 
+namespace {
+
+/// {"from","to"}: ticks, both ends included.
+Json window(Fields& fields) {
+  const Json from = fields.integer("from", 0, 0, false);
+  const Json to = fields.integer("to", nullptr, 0, true);
+  if (to.is_number() && to < from) fields.wrong("to", "a tick not before from (" + from.dump() + ") or null");
+  return {{"from", from}, {"to", to}};
+}
+
+Json mse(const Json& given, std::vector<Problem>& problems) {
+  constexpr std::size_t kMost = 32;
+  Json result = Json::object();
+  const Fields checked(given, "/metrics/mse", problems);
+  if (!given.is_object()) return result;
+  if (given.size() > kMost)
+    problems.push_back(
+        {"/metrics/mse", "mse has " + std::to_string(given.size()) + " members; expected at most 32", {}});
+  for (const auto& [name, figure] : given.items()) {
+    const std::string pointer = child("/metrics/mse", name);
+    if (!is_member_id(name) || !name.starts_with("mse_")) {
+      problems.push_back(
+          {pointer,
+           in_quotes(name) + " is no name of a figure; expected mse_ and small letters, digits and '_', up to 32",
+           "mse_[a-z0-9_]{1,28}"});
+      continue;
+    }
+    Fields fields(figure, pointer, problems);
+    fields.known({"component", "from", "to"});
+    if (figure.is_object() && !fields.has("component")) fields.missing("component", "the name of a state component");
+    result[name] = {{"component", fields.text("component", "")}};
+    result[name].update(window(fields));
+  }
+  return result;
+}
+
+}  // namespace
+
 Json metrics(const Json& given, std::vector<Problem>& problems) {
   const Json section = member(given, "metrics");
   Fields fields(section, "/metrics", problems);
-  fields.known({"window"});
-  if (!fields.has("window")) return Json::object();
-  Fields window(fields.at("window"), "/metrics/window", problems);
-  window.known({"from", "to"});
-  const Json from = window.integer("from", 0, 0, false);
-  const Json to = window.integer("to", nullptr, 0, true);
-  if (to.is_number() && to < from) window.wrong("to", "a tick not before from (" + from.dump() + ") or null");
-  return {{"window", {{"from", from}, {"to", to}}}};
+  fields.known({"window", "mse"});
+  Json result = Json::object();
+  if (fields.has("window")) {
+    Fields ticks(fields.at("window"), "/metrics/window", problems);
+    ticks.known({"from", "to"});
+    result["window"] = window(ticks);
+  }
+  if (fields.has("mse")) result["mse"] = mse(fields.at("mse"), problems);
+  return result;
 }
 
 Json log(const Json& given, std::vector<Problem>& problems) {

@@ -40,6 +40,9 @@ class Plant {
   virtual void jacobian(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& u,
                         Eigen::Ref<Eigen::MatrixXd> F) const = 0;
 
+  /// True where advance() is x -> F x with a constant F: what windowed regressions need.
+  virtual bool linear() const { return false; }
+
   int states() const { return static_cast<int>(state().size()); }
   int inputs() const { return static_cast<int>(input().size()); }
 };

@@ -25,6 +25,10 @@ class Sensor {
   virtual void measure(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> z) const = 0;
   /// H = dh/dx at x, channels x states.
   virtual void jacobian(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> H) const = 0;
+  /// The derivative as its source prints it, where that differs from the true one.
+  virtual void jacobian_as_printed(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> H) const {
+    jacobian(x, H);
+  }
 
   int size() const { return static_cast<int>(channels().size()); }
 };

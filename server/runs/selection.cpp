@@ -24,7 +24,7 @@ bool ends(std::string_view text, std::string_view tail) {
 bool in_overview(const Signal& signal) {
   if (!signal.lane.empty()) return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error");
   if (starts(signal.name, "truth.") || starts(signal.name, "input.")) return true;
-  return starts(signal.name, "link.") && ends(signal.name, ".state");
+  return (starts(signal.name, "link.") || starts(signal.name, "sensor.")) && ends(signal.name, ".state");
 }
 
 }  // namespace

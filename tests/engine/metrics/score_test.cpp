@@ -101,7 +101,7 @@ TEST(LaneScore, TakesNisFromEitherForm) {
 }
 
 TEST(LaneScore, CountsOnlyItsWindow) {
-  LaneScore score(*robot(), {"1"}, {.from = 3, .to = 4});
+  LaneScore score(*robot(), {"1"}, {.window = {.from = 3, .to = 4}, .mse = {}});
   for (int k = 0; k <= 9; ++k)
     score.judge(k, 0, Eigen::Vector3d::Zero(), Guess{{static_cast<double>(k), 0, 0}}.belief());
   EXPECT_NEAR(metric(score, "rmse_position"), std::sqrt(12.5), 1e-12);
