@@ -92,6 +92,9 @@ export interface World {
 /** Hints of a scenario to the page. */
 export interface ViewHints {
   plane?: { components: [string, string]; heading?: string; unit?: string };
+  space?: { components: [string, string, string]; unit?: string };
+  /** Components whose signed error is drawn node by node. */
+  errors?: string[];
   lane?: string;
   error_unit?: string;
 }

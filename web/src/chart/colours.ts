@@ -23,9 +23,10 @@ export function laneToken(index: number): string {
 
 const dashes: readonly (readonly number[])[] = [[], [9, 3], [2, 3], [10, 3, 2, 3], [5, 3], [14, 4], [1, 2.5], [6, 2, 2, 2, 2, 2]];
 
-/** A lane's second sign beside its colour: its dash, the same on every panel. */
+/** A lane's second sign beside its colour: its dash, the same on every panel. It moves on where the colours begin anew, so that no two of 64 are alike. */
 export function laneDash(index: number): number[] {
-  return [...dashes[((index % dashes.length) + dashes.length) % dashes.length]!];
+  const moved = index + Math.floor(index / laneColours);
+  return [...dashes[((moved % dashes.length) + dashes.length) % dashes.length]!];
 }
 
 /** "#rrggbb" as 0xAABBGGRR, the order of an ImageData seen as Uint32. */

@@ -5,6 +5,18 @@ export const linkStates = [
   { value: 3, letter: 'R', token: 'replay', word: 'word_R' },
 ] as const;
 
+/** How the states of a node's sensor look; a link's states come first. Types I, II and R falsify range, or range and azimuth. */
+export const sensorStates = [
+  ...linkStates,
+  { value: 4, letter: 'I', token: 'type-1', word: 'word_I' },
+  { value: 5, letter: 'II', token: 'type-2', word: 'word_II' },
+  { value: 6, letter: 'R', token: 'type-r', word: 'word_range' },
+] as const;
+
+export function sensorCell(value: number): { token: string; letter: string } | null {
+  return sensorStates.find((state) => state.value === value) ?? null;
+}
+
 /** Of several ticks only the extreme is known: attacked, but not how. */
 export function linkRasterCell(value: number, several: boolean): { token: string; letter?: string } | null {
   if (several) return value > 0 ? { token: 'attacked' } : null;

@@ -5,6 +5,7 @@ import { squared } from './lines';
 import { activeAttacks, groupMarks, isMark, mergeMarks, neighbour } from './mark_order';
 import { runMetric } from './metrics';
 import { laneOf, makeModel } from './model';
+import { panelsOf, wideTemplate } from './panels';
 import { planeBox } from './plane_draw';
 import { searchSignals } from './signal_search';
 import { seriesTable } from './table';
@@ -84,7 +85,7 @@ describe('what a run offers', () => {
     const model = makeModel(run, signals);
     expect(model.plane).toEqual({ x: 'truth.x', y: 'truth.y', unit: 'cm' });
     expect(model.links.map((link) => link.state)).toEqual(['link.1-2.state', null]);
-    expect(model.nodes).toEqual([{ id: '1', position: [1, 2] }, { id: '2', position: null }]);
+    expect(model.nodes).toEqual([{ id: '1', position: [1, 2], state: null }, { id: '2', position: null, state: null }]);
     const lane = laneOf(model, 'a')!;
     expect(lane.rmse).toBe('lane.a.rmse');
     expect([...lane.estimate]).toEqual([['1', ['lane.a.1.estimate.x', 'lane.a.1.estimate.y']]]);
@@ -96,6 +97,19 @@ describe('what a run offers', () => {
     const model = makeModel(run, signals);
     expect(model.lanes.map((lane) => lane.id)).toEqual(['a', 'mine']);
     expect(laneOf(model, 'nobody')?.id).toBe('a');
+    expect(laneOf(makeModel({ ...run, view: { lane: 'mine' } }, signals), null)?.id).toBe('mine');
+  });
+
+  it('decides the panels: a family has its own, another run those it has the data for', () => {
+    const shown = (change: Partial<RunDetail>, known = signals): string[] => panelsOf({ ...run, ...change }, makeModel({ ...run, ...change }, known)).map((panel) => panel.name);
+    expect(shown({ family: 'consensus' })).toEqual(['plane', 'errors', 'raster', 'feasible', 'bound', 'events']);
+    expect(shown({ family: 'consensus' }, [])).toEqual(['plane', 'errors', 'raster', 'feasible', 'bound', 'events']);
+    expect(shown({ family: 'observer', view: {} }, [])).toEqual(['events']);
+    expect(shown({ family: 'observer', view: {} }, signals.slice(5, 6))).toEqual(['errors', 'events']);
+  });
+
+  it('gives the rows of the first screen their shares', () => {
+    expect(wideTemplate({ wide: [1, 3], middle: [] })).toBe('calc((max(100cqh, 560px) - 1 * var(--gap)) * 0.25) calc((max(100cqh, 560px) - 1 * var(--gap)) * 0.75)');
   });
 
   it('can be nothing at all', () => {

@@ -32,9 +32,12 @@ export interface LinkModel {
 export interface RunModel {
   lanes: LaneModel[];
   links: LinkModel[];
-  nodes: { id: string; position: [number, number] | null }[];
+  /** `state`: the signal that tells which attack acts on the node's sensor. */
+  nodes: { id: string; position: [number, number] | null; state: string | null }[];
   plane: { x: string; y: string; unit: string } | null;
   errorUnit: string;
+  /** The lane that a scenario leads with. */
+  lead: string | null;
   signals: Signal[];
 }
 
@@ -49,9 +52,10 @@ export function makeModel(run: RunDetail, signals: Signal[]): RunModel {
   return {
     lanes,
     links: (run.world?.links ?? []).map(({ id, from, to }) => ({ id, from, to, state: names.has(`link.${id}.state`) ? `link.${id}.state` : null })),
-    nodes: (run.world?.nodes ?? []).map(({ id, position }) => ({ id, position: position && position.length >= 2 ? [position[0]!, position[1]!] : null })),
+    nodes: (run.world?.nodes ?? []).map(({ id, position }) => ({ id, position: position && position.length >= 2 ? [position[0]!, position[1]!] : null, state: names.has(`sensor.${id}.state`) ? `sensor.${id}.state` : null })),
     plane,
     errorUnit: run.view?.error_unit ?? anyError?.unit ?? '',
+    lead: run.view?.lane ?? null,
     signals,
   };
 }
@@ -99,7 +103,8 @@ function makeLane(lane: { id: string; method: string; adversary: boolean }, inde
 }
 
 export function laneOf(model: RunModel, id: string | null): LaneModel | null {
-  return model.lanes.find((lane) => lane.id === id) ?? model.lanes[0] ?? null;
+  const find = (wanted: string | null): LaneModel | undefined => model.lanes.find((lane) => lane.id === wanted);
+  return find(id) ?? find(model.lead) ?? model.lanes[0] ?? null;
 }
 
 /** A lane's id as a person reads it: naive_hold -> naive hold. */

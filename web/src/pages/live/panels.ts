@@ -1,0 +1,64 @@
+/// Which panels a run shows, in which order, and how much room each takes. A panel joins the page by one line here.
+import type { Component } from 'svelte';
+import type { RunDetail } from '../../api/types';
+import BoundPanel from './BoundPanel.svelte';
+import ErrorPanel from './ErrorPanel.svelte';
+import EventsPanel from './EventsPanel.svelte';
+import FeasiblePanel from './FeasiblePanel.svelte';
+import type { RunModel } from './model';
+import PlanePanel from './PlanePanel.svelte';
+import RasterPanel from './RasterPanel.svelte';
+
+export interface PanelEntry {
+  name: string;
+  component: Component;
+  /** Whether the run has what the panel shows: decided by its family, its signals and the hints of its scenario. */
+  applies: (run: RunDetail, model: RunModel) => boolean;
+  /** Columns of twelve, and rows, on a wide screen. */
+  wide: readonly [columns: number, rows: number];
+  middle: readonly [columns: number, rows: number];
+  /** Height in px where the panels stand one below the other. */
+  narrow: number;
+}
+
+const consensus = (run: RunDetail): boolean => run.family === 'consensus';
+const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
+
+export const panels: readonly PanelEntry[] = [
+  { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: (run, model) => consensus(run) || (!!model.plane && !run.view.space) },
+  { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
+  { name: 'raster', component: RasterPanel, wide: [7, 1], middle: [6, 1], narrow: 340, applies: (run) => consensus(run) },
+  { name: 'feasible', component: FeasiblePanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || anyLane(model, (lane) => lane.feasible28.size) },
+  { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && anyLane(model, (lane) => lane.bound.size)) },
+  { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true },
+];
+
+export function panelsOf(run: RunDetail, model: RunModel): readonly PanelEntry[] {
+  return panels.filter((panel) => panel.applies(run, model));
+}
+
+export interface Rows {
+  /** Shares of the screen's height of the rows that fill the first screen. Rows below it have a fixed height. */
+  wide: readonly number[];
+  /** px. */
+  middle: readonly number[];
+}
+
+const usualRows: Rows = { wide: [29, 47, 29], middle: [320, 320, 260] };
+const familyRows: Record<string, Rows> = {
+  sparse: { wide: [1, 1, 1], middle: [400, 280, 280] },
+};
+
+export function rowsOf(run: RunDetail): Rows {
+  return familyRows[run.family] ?? usualRows;
+}
+
+/** The first screen's rows as a value of grid-template-rows, inside a container whose height is 100cqh. */
+export function wideTemplate({ wide }: Rows): string {
+  const sum = wide.reduce((a, b) => a + b, 0);
+  return wide.map((share) => `calc((max(100cqh, 560px) - ${wide.length - 1} * var(--gap)) * ${share / sum})`).join(' ');
+}
+
+export function middleTemplate({ middle }: Rows): string {
+  return middle.map((height) => `${height}px`).join(' ');
+}
