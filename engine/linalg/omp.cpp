@@ -7,10 +7,10 @@
 namespace vigil {
 namespace {
 
-constexpr double kDependent = 1e-12;  // a column of which less is left beside the chosen (squared, relative) is none
-constexpr double kRounding = 1e-14;   // of ||y||: a correlation below this is no reason to pick
+constexpr double kDependent = 1e-12;  // squared, of the largest column
+constexpr double kRounding = 1e-13;   // of ||y||
 
-/// True where no number is infinite or NaN; one pass that vectorises, unlike allFinite.
+/// One pass that vectorises, unlike allFinite.
 template <class Matrix>
 bool finite(const Matrix& m) {
   return (m.array() * 0.0).sum() == 0.0;
@@ -25,115 +25,139 @@ Omp::Omp(int columns, int picks)
       gain_(columns),
       directions_(columns, picks),
       factor_(Eigen::MatrixXd::Zero(picks, picks)),
-      shares_(picks) {
-  support_.reserve(static_cast<std::size_t>(picks));
-}
+      shares_(picks),
+      support_(static_cast<std::size_t>(picks)) {}
 
-/// squares: of the columns' norms. False where they are not finite.
-bool Omp::begin(const Eigen::Ref<const Eigen::VectorXd>& squares) {
+/// squares: of the columns' norms. False where one of them or the norm is not finite.
+bool Omp::begin(const Eigen::Ref<const Eigen::VectorXd>& squares, double norm_y) {
   entries_.setZero();
-  support_.clear();
-  residual_ = 0;
+  count_ = 0;
+  residual_ = norm_y;
+  least_gain_ = kRounding * norm_y;
   const double largest = squares.size() > 0 ? squares.maxCoeff() : 0;
-  smallest_pivot_ = std::max(kDependent * largest, std::numeric_limits<double>::min());
-  per_norm_ = squares.cwiseMax(smallest_pivot_).cwiseSqrt().cwiseInverse();
-  return finite(per_norm_);
+  least_square_ = std::max(kDependent * largest, std::numeric_limits<double>::min());
+  for (Eigen::Index j = 0; j < squares.size(); ++j) {
+    per_norm_[j] = squares[j] >= least_square_ ? 1 / std::sqrt(squares[j]) : 0;
+  }
+  return std::isfinite(norm_y) && finite(squares);
 }
 
-/// -1 where no column says more than `least`.
-int Omp::best_column(double least) {
+bool Omp::wants_more(int picks, double tolerance) const {
+  return count_ < shares_.size() && count_ < picks && residual_ > tolerance;
+}
+
+/// The next column, which is not offered again; -1 where none explains anything.
+int Omp::best_column() {
   gain_ = correlation_.cwiseAbs().cwiseProduct(per_norm_);
   const double most = gain_.size() > 0 ? gain_.maxCoeff() : 0;
-  if (!(most > least)) return -1;
+  if (!(most > least_gain_)) return -1;
   int column = 0;
   while (gain_[column] != most) ++column;
+  per_norm_[column] = 0;
   return column;
 }
+
+/// A column of the pivoted Cholesky factor of G: what D says of one more direction of the orthonormal basis, without
+/// the basis. The row of the chosen column in the directions so far is its row of R. False where
+/// too little of it is left.
+bool Omp::grow(int column, const Eigen::Ref<const Eigen::VectorXd>& of_gram) {
+  const Eigen::Index n = count_;
+  double square = of_gram[column];
+  for (Eigen::Index r = 0; r < n; ++r) {
+    factor_(r, n) = directions_(column, r);
+    square -= factor_(r, n) * factor_(r, n);
+  }
+  if (!(square >= least_square_)) return false;
+  factor_(n, n) = std::sqrt(square);
+  auto direction = directions_.col(n);
+  direction = of_gram;
+  Eigen::Index r = 0;
+  for (; r + 3 < n; r += 4) {  // four at a time: the sum is loaded and stored once for all
+    direction -= factor_(r, n) * directions_.col(r) + factor_(r + 1, n) * directions_.col(r + 1) +
+                 factor_(r + 2, n) * directions_.col(r + 2) + factor_(r + 3, n) * directions_.col(r + 3);
+  }
+  for (; r < n; ++r) direction -= factor_(r, n) * directions_.col(r);
+  direction *= 1 / factor_(n, n);
+  return true;
+}
+
+/// Gram-Schmidt on the column itself, twice: once loses orthogonality. False where too little of it is left.
+bool Omp::orthonormalise(const Eigen::Ref<const Eigen::VectorXd>& column) {
+  const Eigen::Index n = count_;
+  auto direction = orthonormal_.col(n);
+  direction = column;
+  factor_.col(n).head(n).setZero();
+  for (int pass = 0; pass < 2; ++pass) {
+    for (Eigen::Index r = 0; r < n; ++r) {
+      const double along = orthonormal_.col(r).dot(direction);
+      factor_(r, n) += along;
+      direction -= along * orthonormal_.col(r);
+    }
+  }
+  const double square = direction.squaredNorm();
+  if (!(square >= least_square_)) return false;
+  factor_(n, n) = std::sqrt(square);
+  direction /= factor_(n, n);
+  return true;
+}
+
+void Omp::join(int column) { support_[static_cast<std::size_t>(count_++)] = column; }
 
 bool Omp::solve_gram(const Eigen::Ref<const Eigen::MatrixXd>& G, const Eigen::Ref<const Eigen::VectorXd>& b,
                      double norm_y, int picks, double tolerance) {
   const bool fits = G.rows() == entries_.size() && G.cols() == G.rows() && b.size() == G.rows();
-  if (!fits || !finite(G) || !finite(b) || !std::isfinite(norm_y) || !begin(G.diagonal())) return fail();
+  if (!fits || !finite(G) || !finite(b) || !begin(G.diagonal(), norm_y)) return fail();
   correlation_ = b;
-  residual_ = norm_y;
   double energy = norm_y * norm_y;
-  const Eigen::Index most = std::min<Eigen::Index>(picks, shares_.size());
-  Eigen::Index n = 0;
-  while (n < most && residual_ > tolerance) {
-    const int column = best_column(kRounding * norm_y);
+  while (wants_more(picks, tolerance)) {
+    const int column = best_column();
     if (column < 0) break;
-    per_norm_[column] = 0;
-    const auto along = directions_.row(column).head(n);  // Q' d: what the chosen ones already say of this column
-    const double pivot = G(column, column) - along.squaredNorm();
-    if (!(pivot >= smallest_pivot_)) continue;
-    const double length = std::sqrt(pivot);
-    factor_.col(n).head(n) = along.transpose();
-    factor_(n, n) = length;
-    auto direction = directions_.col(n);
-    direction = G.col(column);
-    for (Eigen::Index r = 0; r < n; ++r) direction -= factor_(r, n) * directions_.col(r);
-    direction /= length;
-    shares_[n] = correlation_[column] / length;
-    correlation_ -= shares_[n] * direction;
-    energy -= shares_[n] * shares_[n];
-    residual_ = std::sqrt(std::max(energy, 0.0));
-    support_.push_back(column);
-    ++n;
+    if (!grow(column, G.col(column))) continue;
+    const double share = correlation_[column] / factor_(count_, count_);
+    shares_[count_] = share;
+    correlation_ -= share * directions_.col(count_);
+    energy = std::max(0.0, energy - share * share);
+    residual_ = std::sqrt(energy);
+    join(column);
   }
   return finish();
 }
 
 bool Omp::solve(const Eigen::Ref<const Eigen::MatrixXd>& D, const Eigen::Ref<const Eigen::VectorXd>& y, int picks,
                 double tolerance) {
+  if (D.cols() != entries_.size() || D.rows() != y.size() || !finite(D) || !finite(y)) return fail();
   gain_ = D.colwise().squaredNorm().transpose();
-  if (D.cols() != entries_.size() || y.size() != D.rows() || !finite(D) || !finite(y) || !begin(gain_)) return fail();
+  if (!begin(gain_, y.norm())) return fail();
   orthonormal_.resize(D.rows(), shares_.size());
   remainder_ = y;
-  residual_ = y.norm();
-  const double least = kRounding * residual_;
-  const Eigen::Index most = std::min<Eigen::Index>(picks, shares_.size());
-  Eigen::Index n = 0;
-  while (n < most && residual_ > tolerance) {
+  while (wants_more(picks, tolerance)) {
     correlation_.noalias() = D.transpose() * remainder_;
-    const int column = best_column(least);
+    const int column = best_column();
     if (column < 0) break;
-    per_norm_[column] = 0;
-    auto direction = orthonormal_.col(n);
-    direction = D.col(column);
-    factor_.col(n).head(n).setZero();
-    for (int pass = 0; pass < 2; ++pass) {  // Gram-Schmidt, twice is enough
-      for (Eigen::Index r = 0; r < n; ++r) {
-        const double along = orthonormal_.col(r).dot(direction);
-        factor_(r, n) += along;
-        direction -= along * orthonormal_.col(r);
-      }
-    }
-    const double length = direction.norm();
-    if (!(length * length >= smallest_pivot_)) continue;
-    factor_(n, n) = length;
-    direction /= length;
-    shares_[n] = direction.dot(remainder_);
-    remainder_ -= shares_[n] * direction;
+    if (!orthonormalise(D.col(column))) continue;
+    shares_[count_] = orthonormal_.col(count_).dot(remainder_);
+    remainder_ -= shares_[count_] * orthonormal_.col(count_);
     residual_ = remainder_.norm();
-    support_.push_back(column);
-    ++n;
+    join(column);
   }
   return finish();
 }
 
 /// The coefficients of the chosen columns from those of their orthonormal basis: R e = Q' y.
 bool Omp::finish() {
-  const auto n = static_cast<Eigen::Index>(support_.size());
-  auto coefficients = shares_.head(n);
-  factor_.topLeftCorner(n, n).triangularView<Eigen::Upper>().solveInPlace(coefficients);
+  auto coefficients = shares_.head(count_);
+  for (Eigen::Index c = count_ - 1; c >= 0; --c) {
+    coefficients[c] /= factor_(c, c);
+    coefficients.head(c) -= coefficients[c] * factor_.col(c).head(c);
+  }
   if (!finite(coefficients) || !std::isfinite(residual_)) return fail();
-  for (Eigen::Index i = 0; i < n; ++i) entries_[support_[static_cast<std::size_t>(i)]] = coefficients[i];
+  for (Eigen::Index i = 0; i < count_; ++i) entries_[support_[static_cast<std::size_t>(i)]] = coefficients[i];
   return true;
 }
 
 bool Omp::fail() {
   entries_.setZero();
-  support_.clear();
+  count_ = 0;
   residual_ = 0;
   return false;
 }
