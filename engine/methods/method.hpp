@@ -78,6 +78,8 @@ class SignalScope {
   virtual ~SignalScope() = default;
   /// output: index, or -1 for a signal of the whole lane.
   virtual int add(int output, const std::string& name, const std::string& unit, SignalKind kind) = 0;
+  /// A category whose value 0, 1, … means the word at that place.
+  virtual int add_category(int output, const std::string& name, const std::vector<std::string>& words) = 0;
 };
 
 /// A method's own figure of a run. output -1: the whole lane.

@@ -13,16 +13,23 @@ class LaneScope final : public SignalScope {
       : lane_(std::move(lane)), outputs_(outputs), catalogue_(catalogue) {}
 
   int add(int output, const std::string& name, const std::string& unit, SignalKind kind) override {
-    Signal signal;
+    return add(output, name, Signal{.unit = unit, .kind = kind});
+  }
+
+  int add_category(int output, const std::string& name, const std::vector<std::string>& words) override {
+    Signal signal{.kind = SignalKind::category};
+    for (const std::string& word : words) signal.labels.emplace_back(static_cast<int>(signal.labels.size()), word);
+    return add(output, name, std::move(signal));
+  }
+
+ private:
+  int add(int output, const std::string& name, Signal signal) {
     signal.lane = lane_;
-    signal.unit = unit;
-    signal.kind = kind;
     if (output >= 0) signal.node = outputs_[static_cast<std::size_t>(output)];
     signal.name = "lane." + lane_ + "." + (signal.node.empty() ? "" : signal.node + ".") + name;
     return catalogue_.add(std::move(signal));
   }
 
- private:
   std::string lane_;
   const std::vector<std::string>& outputs_;
   Catalogue& catalogue_;

@@ -29,6 +29,8 @@ class Sensor {
   virtual void jacobian_as_printed(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> H) const {
     jacobian(x, H);
   }
+  /// True where the derivative at x was limited so as to stay finite: the reading teaches nothing reliable there.
+  virtual bool limited(const Eigen::Ref<const Eigen::VectorXd>& /*x*/) const { return false; }
 
   int size() const { return static_cast<int>(channels().size()); }
 };
