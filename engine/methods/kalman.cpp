@@ -19,12 +19,12 @@ void kalman_predict(Gaussian& state, const Plant& plant, const Eigen::VectorXd& 
   symmetrise(state.covariance);
 }
 
-Innovation innovate(const Sensor& sensor, const Eigen::VectorXd& reading, const BoundedVector& point) {
+Innovation innovate(const Sensor& sensor, const Eigen::VectorXd& reading, const BoundedVector& point, bool as_printed) {
   const int m = sensor.size();
   BoundedVector predicted(m);
   BoundedMatrix H(m, point.size());
   sensor.measure(point, predicted);
-  sensor.jacobian(point, H);
+  as_printed ? sensor.jacobian_as_printed(point, H) : sensor.jacobian(point, H);
   int kept[kMaxSmall];
   int count = 0;
   for (int c = 0; c < m; ++c) {

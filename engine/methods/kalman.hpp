@@ -28,8 +28,10 @@ struct Innovation {
 /// x+ = f(x, u), P+ = F P F' + Q.
 void kalman_predict(Gaussian& state, const Plant& plant, const Eigen::VectorXd& input, const Eigen::MatrixXd& Q);
 
-/// The innovation of `reading` at `point`; empty where no channel was read.
-Innovation innovate(const Sensor& sensor, const Eigen::VectorXd& reading, const BoundedVector& point);
+/// The innovation of `reading` at `point`; empty where no channel was read. `as_printed`: with the derivative as its
+/// source prints it.
+Innovation innovate(const Sensor& sensor, const Eigen::VectorXd& reading, const BoundedVector& point,
+                    bool as_printed = false);
 
 /// S = H P H' + R.
 BoundedMatrix innovation_covariance(const Innovation& innovation, const BoundedMatrix& P);

@@ -64,6 +64,8 @@ class Station final : public Sensor {
     fill(to(x), H);
   }
 
+  bool limited(const Eigen::Ref<const Eigen::VectorXd>& x) const override { return to(x).flat < kNearest; }
+
  private:
   Ray to(const Eigen::Ref<const Eigen::VectorXd>& x) const {
     Ray ray{};

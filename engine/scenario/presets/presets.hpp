@@ -13,5 +13,7 @@ Json consensus_compass();
 Json consensus_literal();
 /// A real robot and fifteen landmarks: UTIAS MRCLAM data set 6, robot 3. Needs a trace.
 Json mrclam();
+/// Seed 001: five ground stations, one target in space, false data on range and azimuth; all nine lanes.
+Json sparse();
 
 }  // namespace vigil::presets

@@ -24,6 +24,8 @@ inline Knowledge knowledge_of(const Scenario& scenario, std::uint64_t seed = 1) 
   const auto& plant = document["plant"];
   known.plant = Registry<PlantMake>::find(plant["type"].get<std::string>())
                     ->make(Params(plant["params"]), document["time"]["dt"].get<double>());
+  known.dt = document["time"]["dt"].get<double>();
+  known.seed = seed;
   const int n = known.plant->states();
   Eigen::Matrix2Xd positions(2, static_cast<Eigen::Index>(document["nodes"].size()));
   for (const auto& [id, node] : document["nodes"].items()) {
@@ -105,6 +107,8 @@ inline void tick(Method& method, const Knowledge& known, const Readings& reading
                  FaultTable& faults, std::int64_t k) {
   faults.begin_tick(k);
   method.predict(Eigen::VectorXd::Zero(known.plant->inputs()), faults);
+  if (faults.stopped()) return;
+  method.measure(readings, faults);
   if (faults.stopped()) return;
   std::vector<Delivery> inbox(method.message() > 0 ? links.state.size() : 0);
   for (std::size_t l = 0; l < inbox.size(); ++l) {
