@@ -3,44 +3,58 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <vector>
+
+#include "engine/linalg/l1_simplex.hpp"
 
 namespace vigil {
 
-/// Mehrotra's predictor-corrector on e = u - v, u, v >= 0; where that stalls, simplex steps finish from its last
-/// iterate, so that what is returned is the optimum or a plain failure. D has full row rank. Buffers are made once;
-/// solving allocates nothing.
+/// Mehrotra's predictor-corrector on e = u - v, u, v >= 0; where it stalls, simplex steps finish from its last iterate.
+/// What is returned has passed a duality certificate, so it is the optimum within 1e-7 of ||e||_1, or it is a plain
+/// failure. Where the optimum is not unique either stage may return another one. Rows are brought to unit length and b
+/// to unit size first: no scale of D or b matters. Buffers are made once; solving allocates nothing.
 class BasisPursuit {
  public:
   BasisPursuit() = default;
+  /// max_iterations: of the interior point; with 0 simplex steps do it all, from the least-squares solution.
   BasisPursuit(int rows, int columns, int max_iterations = 60);
 
-  /// False where D has no full row rank or neither stage reaches the optimum; entries() is zero then.
+  /// D: rows x columns, its rows independent (to 1e-6 of each row's length); b: rows. False where they are not, an
+  /// input is not finite or of another size, or neither stage reaches the optimum; entries are zero then.
   bool solve(const Eigen::Ref<const Eigen::MatrixXd>& D, const Eigen::Ref<const Eigen::VectorXd>& b);
 
   const Eigen::VectorXd& entries() const { return entries_; }
+  const Eigen::VectorXd& dual() const { return dual_; }  ///< |D' dual| <= 1 and b' dual within 1e-7 of ||e||_1
   bool finished_by_simplex() const { return by_simplex_; }
-  int iterations() const { return iterations_; }
+  int iterations() const { return iterations_; }  ///< of the interior point
 
  private:
-  bool interior_point(const Eigen::Ref<const Eigen::MatrixXd>& D, const Eigen::Ref<const Eigen::VectorXd>& b);
-  bool newton(const Eigen::Ref<const Eigen::MatrixXd>& D, const Eigen::VectorXd& corrector);
-  bool simplex(const Eigen::Ref<const Eigen::MatrixXd>& D, const Eigen::Ref<const Eigen::VectorXd>& b);
-  bool choose_basis(const Eigen::Ref<const Eigen::MatrixXd>& D);
+  bool normalise(const Eigen::Ref<const Eigen::MatrixXd>& D, const Eigen::Ref<const Eigen::VectorXd>& b);
+  bool interior_point();
+  void start();
+  bool converged();
+  bool factorise();
+  bool newton();
+  bool advance();
+  bool take_iterate();
+  bool certified();
+  bool fail();
 
-  Eigen::VectorXd entries_;
-  Eigen::VectorXd z_, s_, y_, dz_, ds_, dy_, rp_, rd_, weight_, right_, corrector_, scratch_;
-  Eigen::MatrixXd normal_, scaled_;
+  Eigen::VectorXd entries_, dual_;
+  // The problem in unit size: rows_ e = right_, e = entries / size_; gram_ factors rows_ rows_'.
+  Eigen::MatrixXd rows_;
+  Eigen::VectorXd lengths_, right_, least_squares_;
+  Eigen::LLT<Eigen::MatrixXd> gram_;
+  double size_ = 0;
+  // The iterate: z = [u v], slacks s, multipliers y; a step of each; the residuals of D z = b, of the dual, of z s =
+  // mu.
+  Eigen::VectorXd z_, s_, y_, dz_, ds_, dy_, primal_, dual_gap_, complementarity_;
+  Eigen::VectorXd ratio_;  ///< z / s
+  Eigen::VectorXd column_scratch_, row_scratch_;
+  Eigen::MatrixXd weighted_, normal_;
   Eigen::LLT<Eigen::MatrixXd> cholesky_;
-  Eigen::MatrixXd basis_matrix_, reduced_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  Eigen::VectorXd basic_, dual_, direction_, sign_;
-  std::vector<int> basis_, order_;
-  std::vector<char> in_basis_;
+  L1Simplex simplex_;
+  int max_iterations_ = 0, iterations_ = 0;
   bool by_simplex_ = false;
-  int iterations_ = 0;
-  int max_iterations_ = 0;
 };
 
 }  // namespace vigil

@@ -106,7 +106,9 @@ void Omp::join(int column) { support_[static_cast<std::size_t>(count_++)] = colu
 bool Omp::solve_gram(const Eigen::Ref<const Eigen::MatrixXd>& G, const Eigen::Ref<const Eigen::VectorXd>& b,
                      double norm_y, int picks, double tolerance) {
   const bool fits = G.rows() == entries_.size() && G.cols() == G.rows() && b.size() == G.rows();
-  if (!fits || !finite(G) || !finite(b) || !begin(G.diagonal(), norm_y)) return fail();
+  if (!fits || !finite(G) || !finite(b)) return fail();
+  gain_ = G.diagonal();
+  if (!begin(gain_, norm_y)) return fail();
   correlation_ = b;
   double energy = norm_y * norm_y;
   while (wants_more(picks, tolerance)) {

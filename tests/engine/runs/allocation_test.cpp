@@ -1,47 +1,8 @@
-// No heap allocation in a tick after the first ones. Counted under malloc itself, since Eigen calls it past operator
-// new.
+// No heap allocation in a tick after the first ones.
 #include <Eigen/Core>
-#include <atomic>
-#include <cstdlib>
 
+#include "tests/engine/allocations.hpp"
 #include "tests/engine/runs/capture.hpp"
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define VIGIL_COUNTS_MALLOC 1
-
-namespace {
-std::atomic<bool> counting{false};
-std::atomic<long> allocations{0};
-void count() {
-  if (counting) ++allocations;
-}
-}  // namespace
-
-extern "C" {
-// The C library's own entrances, by which an executable may put its own in front.
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t number, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-
-void* malloc(std::size_t size) {
-  count();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t number, std::size_t size) {
-  count();
-  return __libc_calloc(number, size);
-}
-void* realloc(void* memory, std::size_t size) {
-  count();
-  return __libc_realloc(memory, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  count();
-  return __libc_memalign(alignment, size);
-}
-}
-#endif
 
 namespace vigil {
 namespace {
@@ -64,13 +25,10 @@ long in_quiet_ticks(const Scenario& scenario, int ticks) {
   int quiet = 0;
   for (int i = 3; i < ticks; ++i) {
     sink.told = false;
-    allocations = 0;
-    counting = true;
-    run.step(sink);
-    counting = false;
+    const long made = allocations_in([&] { run.step(sink); });
     if (sink.told) continue;
     ++quiet;
-    sum += allocations;
+    sum += made;
   }
   EXPECT_EQ(run.tick(), ticks - 1);
   EXPECT_GT(quiet, ticks / 2);
