@@ -7,7 +7,16 @@ import EventsPanel from './EventsPanel.svelte';
 import FeasiblePanel from './FeasiblePanel.svelte';
 import type { RunModel } from './model';
 import PlanePanel from './PlanePanel.svelte';
+import FusionPanel from './fusion/FusionPanel.svelte';
+import { gameOf } from './fusion/game';
+import StrategyPanel from './fusion/StrategyPanel.svelte';
 import RasterPanel from './RasterPanel.svelte';
+import { reconstructionOf } from './reconstruction/channels';
+import ReconstructionPanel from './reconstruction/ReconstructionPanel.svelte';
+import { sensorsAttacked, stationsOf } from './schedule/schedule_cells';
+import SchedulePanel from './schedule/SchedulePanel.svelte';
+import { reportOf } from './verdict/report';
+import VerdictPanel from './verdict/VerdictPanel.svelte';
 
 export interface PanelEntry {
   name: string;
@@ -30,6 +39,11 @@ export const panels: readonly PanelEntry[] = [
   { name: 'raster', component: RasterPanel, wide: [7, 1], middle: [6, 1], narrow: 340, applies: (run) => consensus(run) },
   { name: 'feasible', component: FeasiblePanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || anyLane(model, (lane) => lane.feasible28.size) },
   { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && anyLane(model, (lane) => lane.bound.size)) },
+  { name: 'fusion', component: FusionPanel, wide: [7, 1], middle: [6, 1], narrow: 300, applies: (_, model) => gameOf(model, null) !== null },
+  { name: 'strategy', component: StrategyPanel, wide: [5, 1], middle: [6, 1], narrow: 270, applies: (_, model) => gameOf(model, null) !== null },
+  { name: 'reconstruction', component: ReconstructionPanel, wide: [7, 2], middle: [6, 2], narrow: 500, applies: (_, model) => reconstructionOf(model, null) !== null },
+  { name: 'schedule', component: SchedulePanel, wide: [5, 1], middle: [6, 1], narrow: 220, applies: (run, model) => sensorsAttacked(run) && stationsOf(model).length > 0 },
+  { name: 'verdict', component: VerdictPanel, wide: [5, 1], middle: [6, 1], narrow: 420, applies: (run, model) => reportOf(run, model, null) !== null },
   { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true },
 ];
 
