@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { RunDetail } from '../../../api/types';
 import type { Series } from '../../../data/series';
-import { sensorRasterCell, sensorsAttacked, stationsOf } from './schedule_cells';
+import { nodeShown, sensorRasterCell, sensorsAttacked, stationsOf } from './schedule_cells';
 import { stretches } from './timeline_band';
 
 function series(k: number[], lo: number[], hi?: number[]): Series {
@@ -29,6 +29,16 @@ describe('the schedule of attacks on sensors', () => {
 
   it('knows the nodes whose state the run tells', () => {
     expect(stationsOf({ nodes: [{ id: '1', position: null, state: 'sensor.1.state' }, { id: '2', position: null, state: null }] })).toEqual([{ id: '1', state: 'sensor.1.state' }]);
+  });
+
+  it('begins with the node that is attacked first, unless one is chosen', () => {
+    const attack = (node: string, from?: number) => ({ on: [`sensor:${node}`], from });
+    const run = (adversary: unknown) => ({ document: { adversary } }) as unknown as RunDetail;
+    const nodes = ['1', '2', '3', '12'];
+    expect(nodeShown('3', nodes, run({ a: attack('1', 5) }))).toBe('3');
+    expect(nodeShown('7', nodes, run({ a: attack('1', 180), b: attack('2'), c: attack('3', 120) }))).toBe('2');
+    expect(nodeShown(null, nodes, run({ a: attack('12.range', 3), b: { on: 'link:*' }, c: null }))).toBe('12');
+    expect([nodeShown(null, nodes, null), nodeShown(null, [], null)]).toEqual(['1', null]);
   });
 
   it('joins ticks of one look, apart where the kind changes or ticks are missing', () => {

@@ -24,3 +24,17 @@ export function stationsOf(model: Pick<RunModel, 'nodes'>): Station[] {
 export function sensorsAttacked(run: Pick<RunDetail, 'document' | 'commands'>): boolean {
   return /"sensor:/.test(JSON.stringify([run.document?.adversary ?? {}, run.commands ?? []]));
 }
+
+/** The node that a panel on one node begins with: the chosen one, else the one attacked first, else the first. */
+export function nodeShown(chosen: string | null, nodes: readonly string[], run: Pick<RunDetail, 'document'> | null): string | null {
+  if (chosen !== null && nodes.includes(chosen)) return chosen;
+  let first: { node: string; from: number } | null = null;
+  for (const attack of Object.values((run?.document?.adversary ?? {}) as Record<string, { on?: unknown; from?: unknown } | null>)) {
+    const from = typeof attack?.from === 'number' ? attack.from : 0;
+    for (const place of Array.isArray(attack?.on) ? attack.on : []) {
+      const node = nodes.find((id) => place === `sensor:${id}` || String(place).startsWith(`sensor:${id}.`));
+      if (node !== undefined && (!first || from < first.from)) first = { node, from };
+    }
+  }
+  return first?.node ?? nodes[0] ?? null;
+}
