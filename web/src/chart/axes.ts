@@ -49,7 +49,7 @@ export function drawValueAxis(context: CanvasRenderingContext2D, g: Geometry, sc
   context.lineWidth = 1;
   for (const value of scaleTicks(scale, plotHeight(g) / 32)) {
     const y = Math.round(g.height - g.bottom - fraction(scale, value) * plotHeight(g)) + 0.5;
-    context.strokeStyle = colour('grid');
+    context.strokeStyle = colour(value === 0 && scale.lo < 0 && !scale.log ? 'control' : 'grid');
     context.beginPath();
     context.moveTo(g.left, y);
     context.lineTo(g.width - g.right, y);

@@ -56,6 +56,30 @@ describe('scales', () => {
     expect(outside(scale, 1e9)).toBe(true);
   });
 
+  it('are symmetric and logarithmic about a linear middle where errors have a sign', () => {
+    const scale = fit({ lo: -0.004, hi: 8 }, false, 0.01);
+    expect(scale).toEqual({ log: false, middle: 0.01, lo: -0.01, hi: 10 });
+    expect(fraction(scale, -0.01)).toBeCloseTo(0);
+    expect(fraction(scale, 10)).toBeCloseTo(1);
+    // Equal factors far out are equal ways; near 0 equal differences are.
+    expect(fraction(scale, 10) - fraction(scale, 1)).toBeCloseTo(fraction(scale, 1) - fraction(scale, 0.1), 2);
+    expect(fraction(scale, 0.002) - fraction(scale, 0.001)).toBeCloseTo(fraction(scale, 0.001) - fraction(scale, 0), 3);
+    expect(outside(scale, 11)).toBe(true);
+    expect(outside(scale, -0.02)).toBe(true);
+    expect(outside(scale, -0.009)).toBe(false);
+    expect(fit(null, false, 0.01)).toEqual({ log: false, middle: 0.01, lo: -0.01, hi: 0.01 });
+    expect(fit({ lo: 2, hi: 3 }, false, 0.01).lo).toBe(-0.01);
+  });
+
+  it('have ticks at 0 and powers of ten that do not crowd', () => {
+    const scale = fit({ lo: -20, hi: 8 }, false, 0.01);
+    expect(scaleTicks(scale, 20)).toEqual([-10, -1, -0.1, -0.01, 0, 0.01, 0.1, 1, 10]);
+    const few = scaleTicks(scale, 4);
+    expect(few).toContain(0);
+    const places = few.map((value) => fraction(scale, value));
+    for (let i = 1; i < places.length; i++) expect(places[i]! - places[i - 1]!).toBeGreaterThanOrEqual(0.25);
+  });
+
   it('have round ticks', () => {
     expect(ticks(0, 100, 5)).toEqual([0, 20, 40, 60, 80, 100]);
     expect(ticks(3, 3, 5)).toEqual([]);

@@ -40,8 +40,9 @@ export class HeldChart {
   constructor(
     private readonly log: boolean,
     private readonly ready: () => void,
+    private readonly middle = 0,
   ) {
-    this.scale = fit(null, log);
+    this.scale = fit(null, log, middle);
   }
 
   /** Draws into `box` if something changed. False while the library is on its way. */
@@ -54,7 +55,7 @@ export class HeldChart {
     if (state === this.drawn) return true;
     const width = plotWidth(g);
     const all = lines.map((line) => decimate(line.get(g.from, g.to), Math.ceil(width)));
-    this.scale = fit(extent(all, g.from, g.to, this.log), this.log);
+    this.scale = fit(extent(all, g.from, g.to, this.log), this.log, this.middle);
     const tables = all.map((series) => tableOf(series, this.log)).map(([x, y]) => [x, y] as uPlot.AlignedData);
     const data: uPlot.AlignedData = tables.length ? this.library.join(tables) : [[]];
     this.clear();
@@ -87,7 +88,7 @@ export class HeldChart {
       axes: [{ show: false }, { show: false }],
       scales: {
         x: { time: false, range: [g.from, g.to] },
-        y: { distr: this.log ? 3 : 1, range: [this.scale.lo, this.scale.hi] },
+        y: { ...(this.middle ? { distr: 4, asinh: this.middle } : { distr: this.log ? 3 : 1 }), range: [this.scale.lo, this.scale.hi] },
       },
       series: [{}, ...lines.map((line) => ({ stroke: line.colour, width: line.width, dash: line.dash, points: { show: false }, pxAlign: 0, spanGaps: false }))],
     };

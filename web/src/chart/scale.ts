@@ -5,11 +5,17 @@ export interface Scale {
   log: boolean;
   lo: number;
   hi: number;
+  /** Where a symmetric logarithmic scale, asinh(value / middle), goes over from linear to logarithmic. A power of ten. */
+  middle?: number;
 }
 
 /** 0 at the bottom, 1 at the top; NaN where a logarithmic scale has no place for the value. */
 export function fraction(scale: Scale, value: number): number {
   if (scale.log) return value > 0 ? (Math.log10(value) - Math.log10(scale.lo)) / (Math.log10(scale.hi) - Math.log10(scale.lo)) : NaN;
+  if (scale.middle) {
+    const lo = Math.asinh(scale.lo / scale.middle);
+    return (Math.asinh(value / scale.middle) - lo) / (Math.asinh(scale.hi / scale.middle) - lo);
+  }
   return (value - scale.lo) / (scale.hi - scale.lo);
 }
 
@@ -32,7 +38,8 @@ export function extent(all: readonly Series[], from: number, to: number, positiv
 }
 
 /** A scale that holds the values with some room: whole decade halves when logarithmic, so that it changes seldom. */
-export function fit(values: { lo: number; hi: number } | null, log: boolean): Scale {
+export function fit(values: { lo: number; hi: number } | null, log: boolean, middle = 0): Scale {
+  if (middle) return { log: false, middle, lo: -beyond(-(values?.lo ?? 0), middle), hi: beyond(values?.hi ?? 0, middle) };
   if (!values) return log ? { log, lo: 0.1, hi: 10 } : { log, lo: 0, hi: 1 };
   if (log) {
     const lo = Math.floor(Math.log10(values.lo) * 2 - 0.2) / 2;
@@ -43,6 +50,11 @@ export function fit(values: { lo: number; hi: number } | null, log: boolean): Sc
   const lo = Math.floor(values.lo / step) * step;
   const hi = Math.ceil(values.hi / step) * step;
   return { log, lo, hi: hi > lo ? hi : lo + step };
+}
+
+/** The next half decade beyond a size, at least the middle. */
+function beyond(size: number, middle: number): number {
+  return size <= 0.9 * middle ? middle : 10 ** (Math.ceil(Math.log10(size) * 2 + 0.1) / 2);
 }
 
 /** Whether a value needs another scale. */
@@ -67,6 +79,7 @@ export function ticks(lo: number, hi: number, count: number): number[] {
 }
 
 export function scaleTicks(scale: Scale, count: number): number[] {
+  if (scale.middle) return symmetricTicks(scale, scale.middle, count);
   if (!scale.log) return ticks(scale.lo, scale.hi, count);
   const low = Math.ceil(Math.log10(scale.lo) - 1e-9);
   const high = Math.floor(Math.log10(scale.hi) + 1e-9);
@@ -74,6 +87,23 @@ export function scaleTicks(scale: Scale, count: number): number[] {
   const result: number[] = [];
   for (let p = low; p <= high; p += every) result.push(10 ** p);
   return result;
+}
+
+/** 0 and powers of ten on both sides, no closer together than `count` of them would be. */
+function symmetricTicks(scale: Scale, middle: number, count: number): number[] {
+  const apart = 1 / Math.max(2, count);
+  const origin = fraction(scale, 0);
+  const result = [0];
+  for (const sign of [1, -1]) {
+    let last = origin;
+    for (let size = middle; sign * size <= scale.hi * (1 + 1e-9) && sign * size >= scale.lo * (1 + 1e-9); size *= 10) {
+      const at = fraction(scale, sign * size);
+      if (Math.abs(at - last) < apart) continue;
+      result.push(sign * Number(size.toPrecision(12)));
+      last = at;
+    }
+  }
+  return result.sort((a, b) => a - b);
 }
 
 /** A tick's label: short, plain where it can be. */

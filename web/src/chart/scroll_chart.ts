@@ -27,8 +27,11 @@ export class ScrollChart {
   /** Newest tick drawn of each line: streams of one run do not arrive in step. */
   private drawn = new Map<string, number>();
 
-  constructor(private readonly log: boolean) {
-    this.scale = fit(null, log);
+  constructor(
+    private readonly log: boolean,
+    private readonly middle = 0,
+  ) {
+    this.scale = fit(null, log, middle);
   }
 
   /** Forgets what was drawn: the next drawing is whole. */
@@ -57,7 +60,7 @@ export class ScrollChart {
     const context = prepare(canvas, plotWidth(g), plotHeight(g));
     if (!context) return;
     const all = lines.map((line) => line.get(g.from, g.to));
-    this.scale = fit(extent(all, g.from, g.to, this.log), this.log);
+    this.scale = fit(extent(all, g.from, g.to, this.log), this.log, this.middle);
     context.setTransform(1, 0, 0, 1, 0, 0);
     this.lengths.clear();
     this.drawn.clear();

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Ring } from './ring';
-import { concatSeries, decimate, gapsOf, ringSeries, samplesSeries, usualStep, valueAt, type Series } from './series';
+import { concatSeries, decimate, difference, gapsOf, ringSeries, samplesSeries, usualStep, valueAt, type Series } from './series';
 
 function series(k: number[], v: number[], joined?: number[]): Series {
   const values = Float32Array.from(v);
@@ -88,5 +88,33 @@ describe('decimation', () => {
       50,
     );
     expect([...out.joined].filter((j) => j === 0)).toHaveLength(2);
+  });
+});
+
+describe('a difference', () => {
+  it('is taken where both have the tick', () => {
+    const found = difference(series([0, 1, 2, 3], [5, 6, 7, 8]), series([1, 2, 3, 4], [1, 1, 2, 2]));
+    expect([...found.k]).toEqual([1, 2, 3]);
+    expect([...found.lo]).toEqual([5, 6, 6]);
+    expect(found.hi).toBe(found.lo);
+    expect([...found.joined]).toEqual([0, 1, 1]);
+  });
+
+  it('goes on over a tick that a thinned stream left out, and not over missing ones', () => {
+    const thinned = difference(series([0, 1, 2], [1, 1, 1]), series([0, 2], [0, 0]));
+    expect([[...thinned.k], [...thinned.joined]]).toEqual([[0, 2], [0, 1]]);
+    const broken = difference(series([0, 1, 2, 3], [1, 1, 1, 1], [0, 1, 0, 1]), series([0, 1, 3], [0, 0, 0]));
+    expect([[...broken.k], [...broken.joined]]).toEqual([[0, 1, 3], [0, 1, 0]]);
+  });
+
+  it('of extremes holds every difference that they allow', () => {
+    const a: Series = { ...series([0, 10], [1, 2]), hi: Float32Array.of(3, 4) };
+    const found = difference(a, series([0, 10], [1, 1]));
+    expect([[...found.lo], [...found.hi]]).toEqual([[0, 1], [2, 3]]);
+    expect(difference(series([], []), a).k.length).toBe(0);
+  });
+
+  it('misses what one of them misses', () => {
+    expect([...difference(series([0, 1], [1, NaN]), series([0, 1], [NaN, 1])).lo]).toEqual([NaN, NaN]);
   });
 });

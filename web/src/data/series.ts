@@ -81,6 +81,41 @@ export function concatSeries(a: Series, b: Series): Series {
   return { k: join(a.k, b.k), lo, hi: raw ? lo : join(a.hi, b.hi), joined: join(a.joined, b.joined) };
 }
 
+/**
+ * a - b at the ticks that both have: two streams do not arrive in step. Of reduced samples the widest range that the
+ * extremes allow, so that no peak is lost.
+ */
+export function difference(a: Series, b: Series): Series {
+  const most = Math.min(a.k.length, b.k.length);
+  const raw = a.lo === a.hi && b.lo === b.hi;
+  const k = new Float64Array(most);
+  const lo = new Float32Array(most);
+  const hi = raw ? lo : new Float32Array(most);
+  const joined = new Uint8Array(most);
+  let length = 0;
+  let whole = false;
+  for (let i = 0, j = 0; i < a.k.length && j < b.k.length; ) {
+    if (a.k[i]! < b.k[j]!) {
+      whole &&= a.joined[i] === 1;
+      i++;
+    } else if (a.k[i]! > b.k[j]!) {
+      whole &&= b.joined[j] === 1;
+      j++;
+    } else {
+      k[length] = a.k[i]!;
+      lo[length] = a.lo[i]! - b.hi[j]!;
+      hi[length] = a.hi[i]! - b.lo[j]!;
+      joined[length] = whole && a.joined[i] && b.joined[j] ? 1 : 0;
+      whole = true;
+      length++;
+      i++;
+      j++;
+    }
+  }
+  const low = lo.subarray(0, length);
+  return { k: k.subarray(0, length), lo: low, hi: raw ? low : hi.subarray(0, length), joined: joined.subarray(0, length) };
+}
+
 /** The newest value at or before tick k, no older than `reach` ticks; NaN if none. */
 export function valueAt(series: Series, k: number, reach = Infinity): number {
   let low = 0;

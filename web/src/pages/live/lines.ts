@@ -1,4 +1,4 @@
-import type { Series } from '../../data/series';
+import { difference, type Series } from '../../data/series';
 
 /** A line of a chart: which signal, how it is drawn, how it is called. */
 export interface LineSpec {
@@ -11,6 +11,10 @@ export interface LineSpec {
   dash: number[];
   /** Drawn from the signal's values, e.g. their squares. */
   map?: (series: Series) => Series;
+  /** A signal that is taken away, tick by tick. */
+  minus?: string;
+  /** No stream of this page carries it. */
+  unstreamed?: boolean;
   strong?: boolean;
 }
 
@@ -18,4 +22,11 @@ export interface LineSpec {
 export function squared(series: Series): Series {
   const lo = series.lo.map((v) => v * v);
   return { ...series, lo, hi: series.lo === series.hi ? lo : series.hi.map((v) => v * v) };
+}
+
+/** The values that a line draws. */
+export function readLine(line: LineSpec, read: (signal: string) => Series): Series {
+  const own = read(line.signal);
+  const series = line.minus ? difference(own, read(line.minus)) : own;
+  return line.map ? line.map(series) : series;
 }
