@@ -129,6 +129,8 @@ describe('rasters', () => {
 
   it('write colours as an image has them', () => {
     expect(packed('#c4501b')).toBe(0xff1b50c4);
+    expect(packed('#fff')).toBe(packed('#ffffff'));
+    expect(packed('#1af')).toBe(packed('#11aaff'));
   });
 });
 

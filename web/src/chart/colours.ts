@@ -29,9 +29,10 @@ export function laneDash(index: number): number[] {
   return [...dashes[((moved % dashes.length) + dashes.length) % dashes.length]!];
 }
 
-/** "#rrggbb" as 0xAABBGGRR, the order of an ImageData seen as Uint32. */
+/** "#rrggbb", or "#rgb" as a minifier shortens it, as 0xAABBGGRR, the order of an ImageData seen as Uint32. */
 export function packed(hex: string): number {
-  const value = parseInt(hex.slice(1, 7), 16);
+  const digits = hex.length === 4 ? [...hex.slice(1)].map((digit) => digit + digit).join('') : hex.slice(1, 7);
+  const value = parseInt(digits, 16);
   if (Number.isNaN(value)) return 0xff888888;
   return ((0xff << 24) | ((value & 0xff) << 16) | (value & 0xff00) | (value >> 16)) >>> 0;
 }
