@@ -2,6 +2,7 @@
 import type { Component } from 'svelte';
 import type { RunDetail } from '../../api/types';
 import BoundPanel from './BoundPanel.svelte';
+import ComponentErrorsPanel from './component_errors/ComponentErrorsPanel.svelte';
 import ErrorPanel from './ErrorPanel.svelte';
 import EventsPanel from './EventsPanel.svelte';
 import FeasiblePanel from './FeasiblePanel.svelte';
@@ -17,6 +18,9 @@ import { sensorsAttacked, stationsOf } from './schedule/schedule_cells';
 import SchedulePanel from './schedule/SchedulePanel.svelte';
 import { reportOf } from './verdict/report';
 import VerdictPanel from './verdict/VerdictPanel.svelte';
+import SpacePanel from './space/SpacePanel.svelte';
+import { hasTable } from './sparse_table/assemble';
+import Table2Panel from './sparse_table/Table2Panel.svelte';
 
 export interface PanelEntry {
   name: string;
@@ -39,11 +43,14 @@ export const panels: readonly PanelEntry[] = [
   { name: 'raster', component: RasterPanel, wide: [7, 1], middle: [6, 1], narrow: 340, applies: (run) => consensus(run) },
   { name: 'feasible', component: FeasiblePanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || anyLane(model, (lane) => lane.feasible28.size) },
   { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && anyLane(model, (lane) => lane.bound.size)) },
-  { name: 'fusion', component: FusionPanel, wide: [7, 1], middle: [6, 1], narrow: 300, applies: (_, model) => gameOf(model, null) !== null },
+  { name: 'space', component: SpacePanel, wide: [4, 2], middle: [6, 1], narrow: 380, applies: (run) => !!run.view.space },
+  { name: 'component-errors', component: ComponentErrorsPanel, wide: [4, 2], middle: [6, 1], narrow: 400, applies: (run) => !!run.view.errors?.length },
+  { name: 'table2', component: Table2Panel, wide: [4, 2], middle: [12, 1], narrow: 400, applies: (run) => hasTable(run) },
+  { name: 'fusion', component: FusionPanel, wide: [12, 1], middle: [12, 1], narrow: 300, applies: (_, model) => gameOf(model, null) !== null },
   { name: 'strategy', component: StrategyPanel, wide: [5, 1], middle: [6, 1], narrow: 270, applies: (_, model) => gameOf(model, null) !== null },
   { name: 'reconstruction', component: ReconstructionPanel, wide: [7, 2], middle: [6, 2], narrow: 500, applies: (_, model) => reconstructionOf(model, null) !== null },
   { name: 'schedule', component: SchedulePanel, wide: [5, 1], middle: [6, 1], narrow: 220, applies: (run, model) => sensorsAttacked(run) && stationsOf(model).length > 0 },
-  { name: 'verdict', component: VerdictPanel, wide: [5, 1], middle: [6, 1], narrow: 420, applies: (run, model) => reportOf(run, model, null) !== null },
+  { name: 'verdict', component: VerdictPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: (run, model) => reportOf(run, model, null) !== null },
   { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true },
 ];
 
