@@ -20,12 +20,17 @@ const weights = [1, 0.34, 0.16] as const;
 /** Width of one character of a cell's text, px. */
 const characterWidth = 6.8;
 
+/** px that a cell has for its text. */
+function room(g: Geometry): number {
+  return (plotWidth(g) * ticksPerColumn(g)) / Math.max(1, g.to - g.from) - 2;
+}
+
 export function fusionRows(g: Geometry, rows: readonly FusionRow[], nodes: readonly string[], tokens: readonly string[]): RasterRow[] {
   const per = ticksPerColumn(g);
   const from = Math.floor(g.from / per) * per;
   const columns = Math.ceil((g.to - from + 1) / per) + 1;
-  const room = (plotWidth(g) * per) / Math.max(1, g.to - g.from) - 2;
-  const fits = (text: string): string | undefined => (text.length * characterWidth <= room ? text : undefined);
+  const width = room(g);
+  const fits = (text: string): string | undefined => (text.length * characterWidth <= width ? text : undefined);
   return rows.flatMap((row): RasterRow[] => {
     const series = columnSeries(row.codes, from, per, columns);
     return [
@@ -58,6 +63,7 @@ export function ownCell(code: number, fits: (text: string) => string | undefined
 export function hatchAttacked(context: CanvasRenderingContext2D, g: Geometry, rows: readonly RasterRow[]): void {
   const per = ticksPerColumn(g);
   const spans = rowSpans(g, rows);
+  const lettered = room(g) >= characterWidth;
   context.save();
   context.strokeStyle = colour('surface');
   context.globalAlpha = 0.55;
@@ -70,7 +76,10 @@ export function hatchAttacked(context: CanvasRenderingContext2D, g: Geometry, ro
       if (width < 1) continue;
       context.save();
       context.beginPath();
-      context.rect(x, y, width, height);
+      // A cell with text keeps its middle clear.
+      const edge = lettered ? 0.27 * height : height;
+      context.rect(x, y, width, edge);
+      if (lettered) context.rect(x, y + height - edge, width, edge);
       context.clip();
       context.beginPath();
       // Lines stand at fixed places of the plot, so that a growing stretch does not move them.

@@ -48,10 +48,11 @@ export function drawStripAxes(context: CanvasRenderingContext2D, g: Geometry, bo
     context.lineTo(g.width - g.right, at(0));
     context.stroke();
     context.fillStyle = colour('muted');
-    // Zero gives way to an end that would lie on it.
+    const inside = (value: number): number => Math.min(Math.max(at(value), box.y + 5), box.y + box.height - 4);
     const ends = quiet[i] ? [] : [scale.lo, scale.hi].filter((value) => value !== 0);
-    const free = ends.every((value) => Math.abs(at(value) - at(0)) >= 10);
-    for (const value of [...ends, ...(free ? [0] : [])]) context.fillText(tickLabel(value), g.left - 6, Math.min(Math.max(at(value), box.y + 5), box.y + box.height - 4));
+    // Zero gives way to an end that would lie on it.
+    const free = ends.every((value) => Math.abs(inside(value) - inside(0)) >= 11);
+    for (const value of [...ends, ...(free ? [0] : [])]) context.fillText(tickLabel(value), g.left - 6, inside(value));
   });
 }
 

@@ -2,7 +2,8 @@ import { describe, expect, it } from 'vitest';
 import type { RunDetail } from '../../../api/types';
 import type { Series } from '../../../data/series';
 import { nodeShown, sensorRasterCell, sensorsAttacked, stationsOf } from './schedule_cells';
-import { stretches } from './timeline_band';
+import { rowBoxes } from './schedule_draw';
+import { stretches } from './stretches';
 
 function series(k: number[], lo: number[], hi?: number[]): Series {
   const low = Float32Array.from(lo);
@@ -43,9 +44,11 @@ describe('the schedule of attacks on sensors', () => {
 
   it('joins ticks of one look, apart where the kind changes or ticks are missing', () => {
     expect(stretches(series([0, 1, 2, 3, 4], [0, 4, 4, 5, 0]))).toEqual([
-      { from: 1, to: 3, token: sensorRasterCell(4, false)!.token },
-      { from: 3, to: 4, token: sensorRasterCell(5, false)!.token },
+      { from: 1, to: 3, token: sensorRasterCell(4, false)!.token, letter: 'I' },
+      { from: 3, to: 4, token: sensorRasterCell(5, false)!.token, letter: 'II' },
     ]);
+    // The frame of tick 6 stands for the ticks from 2 on.
+    expect(stretches(series([0, 1, 6], [0, 0, 4])).map(({ from, to }) => [from, to])).toEqual([[2, 7]]);
     const gap = { ...series([0, 9], [4, 4]), joined: Uint8Array.of(0, 0) };
     expect(stretches(gap).map(({ from, to }) => [from, to])).toEqual([
       [0, 1],
@@ -55,5 +58,14 @@ describe('the schedule of attacks on sensors', () => {
       [0, 10, 'attacked'],
       [10, 11, sensorRasterCell(4, false)!.token],
     ]);
+  });
+
+  it('has a bar a node, none on another', () => {
+    const g = { width: 400, height: 122, left: 44, right: 8, top: 4, bottom: 18, from: 0, to: 10 };
+    for (const count of [1, 5, 64]) {
+      const boxes = rowBoxes(g, count);
+      expect(boxes).toHaveLength(count);
+      boxes.slice(1).forEach((box, i) => expect(box.y).toBeGreaterThan(boxes[i]!.y + boxes[i]!.height));
+    }
   });
 });

@@ -57,7 +57,7 @@ describe('the verdict', () => {
     ]);
     const text = sentences.map(say).join(' ');
     for (const part of ['2qT = 24 is not more than pT − n = 30', 'more than 2q = 4 channels of a station, and the least is 3', 'q ≤ 1', '0.38 … 0.43', 'fewer than 2 entries', 'up to qT = 12']) expect(text).toContain(part);
-    expect(say(conclusion(read()))).toContain('nothing in the paper promises that an attack on q = 2 channels is unique');
+    expect(say(conclusion(read()))).toContain('Nothing in the paper promises that an attack on q = 2 channels is unique');
   });
 
   it('of q = 1: the tests pass, and still nothing promises that OMP finds it', () => {
