@@ -41,14 +41,15 @@ std::optional<Place> parse_sensor(std::string_view rest) {
   return place;
 }
 
-/// Node positions as the sensors' params give them; NaN where one does not.
+/// Node positions in the plane as the sensors' params give them; NaN where one does not.
 Eigen::Matrix2Xd positions(const Json& nodes) {
   Eigen::Matrix2Xd result = Eigen::Matrix2Xd::Constant(2, static_cast<Eigen::Index>(nodes.size()), std::nan(""));
   Eigen::Index column = 0;
   for (const auto& [id, node] : nodes.items()) {
     const Json params = node["sensor"].value("params", Json::object());
     const Json place = params.value("position", Json(nullptr));
-    if (place.is_array() && place.size() == 2 && place[0].is_number() && place[1].is_number()) {
+    const bool in_plane_or_space = place.is_array() && (place.size() == 2 || place.size() == 3);
+    if (in_plane_or_space && place[0].is_number() && place[1].is_number()) {
       result.col(column) << place[0].get<double>(), place[1].get<double>();
     }
     ++column;

@@ -32,7 +32,7 @@ Json complete(const Json& given, std::vector<Problem>& problems) {
   Json result = {{"vigil", 1}, {"id", section::id(given, problems)}};
   result["title"] = section::title(given, result, problems);
   result["source"] = root.text("source", "");
-  result["family"] = root.choice("family", {"consensus"}, "consensus");
+  result["family"] = root.choice("family", {"consensus", "sparse"}, "consensus");
   result["profile"] = root.text("profile", "");
   result["time"] = section::time(given, problems);
   result["plant"] = section::plant(given, problems);
@@ -40,7 +40,7 @@ Json complete(const Json& given, std::vector<Problem>& problems) {
   result["controller"] = section::controller(given, problems);
   result["nodes"] = section::nodes(given, problems);
   result["network"] = section::network(given, result, problems);
-  result["noise"] = section::noise(given, states, problems);
+  result["noise"] = section::noise(given, result, states, problems);
   result["initial"] = section::initial(given, result, states, problems);
   result["adversary"] = section::adversary(given, result, problems);
   result["lanes"] = section::lanes(given, problems);
@@ -66,7 +66,7 @@ Scenario Scenario::from_json(const Json& document) {
 }
 
 const std::vector<std::string>& Scenario::preset_ids() {
-  static const std::vector<std::string> ids{"consensus", "consensus-compass", "consensus-literal", "mrclam"};
+  static const std::vector<std::string> ids{"consensus", "consensus-compass", "consensus-literal", "mrclam", "sparse"};
   return ids;
 }
 
@@ -75,6 +75,7 @@ Scenario Scenario::preset(std::string_view id) {
   if (id == "consensus-compass") return from_json(presets::consensus_compass());
   if (id == "consensus-literal") return from_json(presets::consensus_literal());
   if (id == "mrclam") return from_json(presets::mrclam());
+  if (id == "sparse") return from_json(presets::sparse());
   const std::string near = nearest(id, preset_ids());
   const std::string hint = near.empty() ? "" : "; did you mean " + in_quotes(near) + "?";
   throw InputError("", in_quotes(id) + " is no preset; expected one of " + listed(preset_ids()) + hint,

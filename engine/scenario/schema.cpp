@@ -130,7 +130,10 @@ Json initial(const Json& document) {
               {"estimates", leaf(estimates,
                                  {"Initial estimates by node, or \"truth\"; none: drawn",
                                   "各节点初始估计，或 \"truth\"；无：随机抽取"},
-                                 nullptr)}}),
+                                 nullptr)},
+              {"x0_random",
+               leaf(boolean(), {"The truth is drawn about its initial state", "真实初始状态在给定值附近随机抽取"},
+                    false)}}),
       {"Initial values", "初始值"});
 }
 
@@ -205,7 +208,7 @@ Json properties(const Json& document) {
           {"id", leaf(id, {"Id", "标识"})},
           {"title", title()},
           {"source", leaf(text(), {"Where it comes from", "来源"}, "")},
-          {"family", leaf(choice({"consensus"}), {"Family", "类别"}, "consensus")},
+          {"family", leaf(choice({"consensus", "sparse"}), {"Family", "类别"}, "consensus")},
           {"profile", leaf(text(), {"Profile", "参数组"}, "")},
           {"time", time()},
           {"plant", typed<PlantMake>("plant", {"Plant", "被控对象"})},

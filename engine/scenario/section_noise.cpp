@@ -1,6 +1,7 @@
 /// Noise and initial values.
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "engine/core/describe.hpp"
@@ -20,24 +21,28 @@ const ParamTable& table() {
   return noise;
 }
 
-/// Why a square matrix is no covariance; "" where it is one.
-std::string not_covariance(const Eigen::MatrixXd& matrix) {
+/// Why a square matrix is no covariance, or not a positive definite one where that is wanted; "" where it is.
+std::string not_covariance(const Eigen::MatrixXd& matrix, bool definite) {
   // Scaled first, so that entries near the largest number do not overflow on the way.
   const double scale = matrix.cwiseAbs().maxCoeff();
-  if (scale == 0) return {};
+  if (scale == 0) return definite ? "is not positive definite" : "";
   const Eigen::MatrixXd unit = matrix / scale;
   const double asymmetry = (unit - unit.transpose()).cwiseAbs().maxCoeff();
   if (asymmetry > kRounding) return "is not symmetric";
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(unit, Eigen::EigenvaluesOnly);
   const double least = solver.eigenvalues().minCoeff();
   if (!(least >= -kRounding)) return "has the negative eigenvalue " + number_text(least * scale);
+  const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(matrix.rows());
+  if (definite && !(least > rounding)) return "is not positive definite";
   return {};
 }
 
-void check_covariance(const std::string& name, const Json& value, int states, std::vector<Problem>& problems) {
+void check_covariance(const std::string& name, const Json& value, int states, bool definite,
+                      std::vector<Problem>& problems) {
   constexpr std::size_t kMost = 64;
   const std::string pointer = "/noise/" + name;
-  const std::string expected = "a symmetric positive semidefinite matrix";
+  const std::string expected =
+      std::string("a symmetric positive ") + (definite ? "definite" : "semidefinite") + " matrix";
   const auto size = states > 0 ? static_cast<std::size_t>(states) : value.is_array() ? value.size() : 1;
   if (size > kMost) {
     problems.push_back(
@@ -45,7 +50,7 @@ void check_covariance(const std::string& name, const Json& value, int states, st
     return;
   }
   try {
-    const std::string why = not_covariance(square_matrix(value, static_cast<int>(size), pointer));
+    const std::string why = not_covariance(square_matrix(value, static_cast<int>(size), pointer), definite);
     if (!why.empty())
       problems.push_back({pointer, name + " is " + shown(value) + " and " + why + "; expected " + expected, expected});
   } catch (const InputError& error) {
@@ -91,24 +96,27 @@ Json estimates(Fields& fields, const Json& nodes, int states, std::vector<Proble
 
 }  // namespace
 
-Json noise(const Json& given, int states, std::vector<Problem>& problems) {
+Json noise(const Json& given, const Json& document, int states, std::vector<Problem>& problems) {
   const Json section = given.contains("noise") ? given["noise"] : Json::object();
   const Fields checked(section, "/noise", problems);
   if (!section.is_object()) return Json::object();
   const std::size_t before = problems.size();
   Json result = table().complete(section, "/noise", problems);
   if (problems.size() > before) return result;
-  for (const char* name : {"Q", "P0"}) check_covariance(name, result[name], states, problems);
+  const bool definite = document["family"] == "sparse";  // its regressions and information forms invert them
+  for (const char* name : {"Q", "P0"}) check_covariance(name, result[name], states, definite, problems);
   return result;
 }
 
 Json initial(const Json& given, const Json& document, int states, std::vector<Problem>& problems) {
   const Json section = given.contains("initial") ? given["initial"] : Json::object();
   Fields fields(section, "/initial", problems);
-  fields.known({"truth", "estimates"});
+  fields.known({"truth", "estimates", "x0_random"});
   const Json& truth = fields.at("truth");
   if (!truth.is_null() && !is_state(truth, states)) fields.wrong("truth", state_words(states) + " or null");
-  return {{"truth", truth}, {"estimates", estimates(fields, document["nodes"], states, problems)}};
+  return {{"truth", truth},
+          {"estimates", estimates(fields, document["nodes"], states, problems)},
+          {"x0_random", fields.boolean("x0_random", false)}};
 }
 
 }  // namespace vigil::section

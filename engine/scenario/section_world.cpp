@@ -99,6 +99,18 @@ void check_graph(const std::string& name, const Json& nodes, std::vector<Problem
   }
 }
 
+/// The sparse family's game needs everybody to be reached: specification of seed 001, section 15.
+void check_connected(const Json& nodes, const Json& network, std::vector<Problem>& problems) {
+  const auto graph = document_graph({{"nodes", nodes}, {"network", network}});
+  if (!graph || graph->connected()) return;
+  const auto name = network["graph"].get<std::string>();
+  const std::string what = name == "edges" ? "edges do" : "graph is " + in_quotes(name) + ", which does";
+  problems.push_back(
+      {name == "edges" ? "/network/edges" : "/network/graph",
+       what + " not connect the " + std::to_string(nodes.size()) + " nodes; expected a path between every two",
+       "a connected network"});
+}
+
 }  // namespace
 
 Json plant(const Json& given, std::vector<Problem>& problems) {
@@ -153,6 +165,7 @@ Json nodes(const Json& given, std::vector<Problem>& problems) {
 }
 
 Json network(const Json& given, const Json& document, std::vector<Problem>& problems) {
+  const std::size_t before = problems.size();
   const Json section = member(given, "network", Json::object());
   Fields fields(section, "/network", problems);
   fields.known({"graph", "edges"});
@@ -164,12 +177,15 @@ Json network(const Json& given, const Json& document, std::vector<Problem>& prob
   } else if (name == "edges") {
     fields.missing("edges", "an array of pairs of node ids, since graph is \"edges\"");
   }
-  if (name == "edges" || all.empty()) return result;
-  if (is_graph_name(name)) {
-    check_graph(name, all, problems);
-  } else {
-    fields.choice("graph", kGraphs, "none");
+  if (all.empty()) return result;
+  if (name != "edges") {
+    if (is_graph_name(name)) {
+      check_graph(name, all, problems);
+    } else {
+      fields.choice("graph", kGraphs, "none");
+    }
   }
+  if (document["family"] == "sparse" && problems.size() == before) check_connected(all, result, problems);
   return result;
 }
 

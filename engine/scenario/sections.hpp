@@ -23,7 +23,7 @@ Json controller(const Json& given, std::vector<Problem>& problems);
 Json nodes(const Json& given, std::vector<Problem>& problems);
 Json network(const Json& given, const Json& document, std::vector<Problem>& problems);
 /// `states`: of the plant, 0 where it is not known (then sizes are not checked).
-Json noise(const Json& given, int states, std::vector<Problem>& problems);
+Json noise(const Json& given, const Json& document, int states, std::vector<Problem>& problems);
 Json initial(const Json& given, const Json& document, int states, std::vector<Problem>& problems);
 Json adversary(const Json& given, const Json& document, std::vector<Problem>& problems);
 Json lanes(const Json& given, std::vector<Problem>& problems);

@@ -19,7 +19,7 @@ TEST(Presets, AreValidCompleteAndStable) {
   for (const auto& id : Scenario::preset_ids()) {
     const Scenario preset = Scenario::preset(id);
     EXPECT_EQ(preset.id(), id);
-    EXPECT_EQ(preset.family(), "consensus");
+    EXPECT_EQ(preset.family(), id == "sparse" ? "sparse" : "consensus");
     EXPECT_EQ(Scenario::from_json(preset.document()).document().dump(), preset.document().dump()) << id;
     EXPECT_EQ(Scenario::from_json(Json::parse(preset.document().dump())).document(), preset.document()) << id;
     EXPECT_NE(preset.document()["title"]["en"], preset.document()["title"]["zh"]);
@@ -34,6 +34,9 @@ TEST(Presets, HaveTheContractsLanesInOrder) {
   const std::vector<std::string> mrclam{"consensus", "isolated", "centralized", "centralized_gated", "dead_reckoning"};
   EXPECT_EQ(keys(Scenario::preset("mrclam").document()["lanes"]), mrclam);
   EXPECT_EQ(Scenario::preset("consensus").document()["lanes"]["clean"]["adversary"], false);
+  const std::vector<std::string> sparse{"omp_game",         "l1", "dkf", "etpg", "sdlms", "omp", "ekf", "pred",
+                                        "omp_game_channels"};
+  EXPECT_EQ(keys(Scenario::preset("sparse").document()["lanes"]), sparse);
 }
 
 TEST(Presets, CarryTheSpecificationsNumbers) {
@@ -54,6 +57,34 @@ TEST(Presets, CarryTheSpecificationsNumbers) {
   EXPECT_EQ(recorded["nodes"].size(), 15U);
   EXPECT_TRUE(recorded["nodes"]["20"]["sensor"]["params"]["position"].is_null());
   EXPECT_TRUE(recorded["time"]["steps"].is_null());
+}
+
+// Seconds of table 1 as ticks of 0.05 s: [start, end) without its end, the last period to the last tick.
+TEST(Presets, SparseCarriesTheSpecificationsNumbers) {
+  const Json document = Scenario::preset("sparse").document();
+  EXPECT_EQ(document["time"].dump(), R"({"dt":0.05,"steps":200})");
+  const int places[5][2] = {{-6, 8}, {-10, 0}, {-6, -8}, {6, -8}, {0, -10}};
+  const Json periods = Json::parse(R"([["I",180,null],["I",0,119],["II",120,null],["II",0,119],["I",120,null]])");
+  for (std::size_t n = 0; n < 5; ++n) {
+    const std::string id = std::to_string(n + 1);
+    const Json& sensor = document["nodes"][id]["sensor"]["params"];
+    EXPECT_EQ(sensor["position"], Json::array({places[n][0], places[n][1], 0}));
+    EXPECT_EQ(sensor["R"], Json::array({1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4}));
+    const Json& attack = document["adversary"]["node" + id];
+    EXPECT_EQ(attack["on"], Json::array({"sensor:" + id}));
+    EXPECT_EQ(Json::array({attack["params"]["kind"], attack["from"], attack["to"]}), periods[n]) << id;
+    EXPECT_EQ(attack["params"]["range_spread"], 5.0);
+    EXPECT_EQ(attack["params"]["range_offset"], 10.0);
+    EXPECT_TRUE(attack["params"]["psi"].is_null());
+  }
+  EXPECT_EQ(document["noise"]["Q"], Json::array({2.5e-5, 2.5e-5, 2.5e-5, 2.5e-5, 2.5e-5, 2.5e-5}));
+  EXPECT_EQ(document["noise"]["P0"], Json::array({0.01, 0.01, 0.01, 0.01, 0.01, 0.01}));
+  EXPECT_EQ(document["initial"].dump(), R"({"truth":[10,0,10,0,8,0],"estimates":"truth","x0_random":false})");
+  const std::vector<std::pair<int, int>> edges{{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 4}, {2, 3}, {2, 4}};
+  EXPECT_EQ(edge_indices(document), edges);
+  EXPECT_EQ(document["lanes"]["pred"]["params"]["at"], "nodes");
+  EXPECT_EQ(document["metrics"]["mse"]["mse_px_0_9s"].dump(), R"({"component":"px","from":0,"to":179})");
+  EXPECT_EQ(document["view"]["space"]["components"], Json::array({"px", "py", "pz"}));
 }
 
 TEST(Presets, UnknownOneNamesTheNearest) {
@@ -78,7 +109,7 @@ TEST(Document, FillsInEveryDefault) {
   EXPECT_EQ(document["time"].dump(), R"({"dt":1,"steps":null})");
   EXPECT_EQ(document["network"].dump(), R"({"graph":"none"})");
   EXPECT_EQ(document["noise"].dump(), R"({"Q":0,"P0":0})");
-  EXPECT_EQ(document["initial"].dump(), R"({"truth":null,"estimates":null})");
+  EXPECT_EQ(document["initial"].dump(), R"({"truth":null,"estimates":null,"x0_random":false})");
   EXPECT_EQ(document["log"].dump(), R"({"signals":["*"],"every":1,"keep":null,"policy":null})");
   EXPECT_EQ(document["lanes"]["l"].dump(),
             R"({"method":"local_ekf","path":"loop","adversary":true,"enabled":true,"params":{}})");
