@@ -26,6 +26,9 @@ const en = {
   short_why: 'Why',
   column_true: '{channel} true',
   column_found: '{channel} found',
+  range: 'range',
+  azimuth: 'azimuth',
+  elevation: 'elevation',
 };
 
 const zh: Translation<typeof en> = {
@@ -54,6 +57,14 @@ const zh: Translation<typeof en> = {
   short_why: '原因',
   column_true: '{channel} 真实',
   column_found: '{channel} 重构',
+  range: '距离',
+  azimuth: '方位角',
+  elevation: '俯仰角',
 };
 
 export const t = dictionary('reconstruction', en, zh);
+
+/** A channel's name as a person reads it; one that nobody translated stays as it is. */
+export function channelWord(name: string): string {
+  return name === 'range' || name === 'azimuth' || name === 'elevation' ? t(name) : name;
+}
