@@ -55,12 +55,12 @@ class EnergyDetector {
     void restart(int size);
     void push(double value);
     bool full() const { return count == values.size(); }
+    double mean() const;
   };
-  double candidate() const;
-  void set_threshold();
   bool fixed() const { return settings_.threshold >= Threshold::fixed_norm; }
-  void follow(double statistic);
   void learn(std::int64_t k, double energy);
+  void follow();
+  double candidate() const;
 
   DetectorSettings settings_;
   Ring energies_, statistics_;

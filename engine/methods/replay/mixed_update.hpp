@@ -40,29 +40,36 @@ class MixedUpdate {
   /// From Qp and Mp (n x n). Nothing where the innovation matrix C W C' + S is not invertible or a result not finite.
   std::optional<GainChoice> update(const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
 
-  /// The gain K(sigma) of a given sigma in (0, 1), and I - K C.
+  /// The gain of a given sigma in (0, 1).
   struct Point {
-    double sigma = 0;
-    BoundedMatrix K, X;
+    double sigma = 0, rest = 0;               ///< rest: 1 - sigma, without its rounding
+    BoundedMatrix K, X;                       ///< K(sigma) = W C' (C W C' + S)^-1, n x p; X = I - K C
     double of_sensor = 0, of_prediction = 0;  ///< tr K Mv K', tr X Mp X'
     /// g: the slope of the minimised cost over (1 - mu), nondecreasing in sigma.
-    double slope() const;
+    double slope() const { return of_sensor / (rest * rest) - of_prediction / (sigma * sigma); }
   };
+  /// Nothing where C W C' + S is not invertible.
   std::optional<Point> at(double sigma, const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
 
  private:
-  struct Traces {
-    double prediction = 0, sensor = 0;
+  /// How the bounded part's two ellipsoids are added: by the zeta chosen, or with the least trace.
+  struct Choice {
+    Point point;
+    double zeta = 1;
+    Corner corner = Corner::none;
+    bool least_trace = true;
   };
-  std::optional<Point> search(const Point& low, const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
-  std::optional<GainChoice> choose(const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
-  void bound(GainChoice& choice, const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
+  std::optional<Point> at_zeta(double zeta, const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
+  bool solve(Point& point, const BoundedMatrix& W, const BoundedMatrix& S) const;
+  std::optional<Choice> choose(const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
+  std::optional<Choice> choose_within(const BoundedMatrix& Qp, const BoundedMatrix& Mp) const;
+  std::optional<Choice> search(const Point& low, const Point& high, const BoundedMatrix& Qp,
+                               const BoundedMatrix& Mp) const;
 
   BoundedMatrix C_, R_, Mv_;
   BoundedMatrix inverse_;   ///< C^-1; empty where there is none
   bool injective_ = false;  ///< C has rank n
   double mu_ = 1, zeta_max_;
-  double sensor_trace_ = 0;  ///< tr Mv
 };
 
 }  // namespace vigil::replay
