@@ -2,7 +2,7 @@ import { dictionary, type Translation } from '../../../i18n/i18n.svelte';
 
 const en = {
   signed: 'Errors per node',
-  signed_note: 'estimate − truth, {lane}',
+  signed_note: '{lane}: estimate − truth',
   signed_scale: 'Scale',
   scale_symlog: '± log',
   scale_linear: 'linear',
@@ -17,7 +17,7 @@ const en = {
 
 const zh: Translation<typeof en> = {
   signed: '各节点误差',
-  signed_note: '估计 − 真值，{lane}',
+  signed_note: '{lane}：估计 − 真值',
   signed_scale: '坐标',
   scale_symlog: '± 对数',
   scale_linear: '线性',

@@ -2,7 +2,7 @@
 import { axisFont } from '../../../chart/axes';
 import { colour } from '../../../chart/colours';
 import { tickLabel, ticks } from '../../../chart/scale';
-import { dot, type Box, type Point, type Projection, type Sight } from './projection';
+import { dot, type Box, type Margins, type Point, type Projection, type Sight } from './projection';
 
 export interface AxisWords {
   names: readonly [string, string, string];
@@ -100,31 +100,31 @@ function drawHeight(context: CanvasRenderingContext2D, p: Projection, { min, max
 const drawn: Record<Exclude<Sight, 'space'>, readonly [0 | 1 | 2, 0 | 1 | 2]> = { xy: [0, 1], xz: [0, 2], yz: [1, 2] };
 
 /** A plane's grid over the whole canvas, numbers at the left and below. */
-export function drawPlaneGrid(context: CanvasRenderingContext2D, p: Projection, sight: Exclude<Sight, 'space'>, words: AxisWords): void {
-  const { width, height, margins } = p;
-  const [right, below] = [width - margins.right, height - margins.bottom];
+export function drawPlaneGrid(context: CanvasRenderingContext2D, p: Projection, frame: Margins, sight: Exclude<Sight, 'space'>, words: AxisWords): void {
+  const { width, height } = p;
+  const [right, below] = [width - frame.right, height - frame.bottom];
   context.font = axisFont;
   context.lineWidth = 1;
   context.fillStyle = colour('muted');
   context.textAlign = 'center';
   context.textBaseline = 'alphabetic';
-  for (const value of ticks(p.right(margins.left), p.right(right), width / 75)) {
+  for (const value of ticks(p.right(frame.left), p.right(right), width / 75)) {
     const x = Math.round(p.atRight(value)) + 0.5;
-    rule(context, value, x, margins.top, x, below);
+    rule(context, value, x, frame.top, x, below);
     context.fillText(tickLabel(value), x, height - 5);
   }
   context.textAlign = 'right';
   context.textBaseline = 'middle';
-  for (const value of ticks(p.up(below), p.up(margins.top), height / 60)) {
+  for (const value of ticks(p.up(below), p.up(frame.top), height / 60)) {
     const y = Math.round(p.atUp(value)) + 0.5;
-    rule(context, value, margins.left, y, right, y);
-    context.fillText(tickLabel(value), margins.left - 6, y);
+    rule(context, value, frame.left, y, right, y);
+    context.fillText(tickLabel(value), frame.left - 6, y);
   }
   context.fillStyle = colour('ink');
   const [across, up] = drawn[sight];
   context.fillText(`${words.names[across]}, ${words.unit}`, right - 2, below - 8);
   context.textAlign = 'left';
-  context.fillText(`${words.names[up]}, ${words.unit}`, margins.left + 5, margins.top + 8);
+  context.fillText(`${words.names[up]}, ${words.unit}`, frame.left + 5, frame.top + 8);
 }
 
 function rule(context: CanvasRenderingContext2D, value: number, x0: number, y0: number, x1: number, y1: number): void {

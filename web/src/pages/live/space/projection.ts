@@ -8,7 +8,7 @@ export interface Turn {
   height: number;
 }
 
-export const usualTurn: Turn = { azimuth: -60, height: 26 };
+export const usualTurn: Turn = { azimuth: -60, height: 34 };
 const lowest = 4;
 const highest = 90;
 

@@ -17,7 +17,9 @@ export interface SpaceScene {
 }
 
 const around: Margins = { left: 38, right: 26, top: 20, bottom: 34 };
-const plain: Margins = { left: 36, right: 8, top: 6, bottom: 20 };
+/** The frame of a plane, and within it the room that marks at the edge need. */
+const frame: Margins = { left: 36, right: 6, top: 4, bottom: 20 };
+const plain: Margins = { left: 52, right: 24, top: 22, bottom: 34 };
 
 export function projectionOf(sight: Sight, turn: Turn, box: Box, width: number, height: number): Projection {
   const turning = sight === 'space';
@@ -27,11 +29,11 @@ export function projectionOf(sight: Sight, turn: Turn, box: Box, width: number, 
 export function drawSpace(context: CanvasRenderingContext2D, p: Projection, sight: Sight, box: Box, scene: SpaceScene): void {
   const ground = groundOf(box);
   if (sight === 'space') drawGround(context, p, box, ground, scene.words);
-  else drawPlaneGrid(context, p, sight, scene.words);
+  else drawPlaneGrid(context, p, frame, sight, scene.words);
   context.save();
   context.beginPath();
   if (sight === 'space') context.rect(0, 0, p.width, p.height);
-  else context.rect(plain.left, plain.top, p.width - plain.left - plain.right, p.height - plain.top - plain.bottom);
+  else context.rect(frame.left, frame.top, p.width - frame.left - frame.right, p.height - frame.top - frame.bottom);
   context.clip();
   links(context, p, scene);
   shadow(context, p, scene, ground, sight);

@@ -5,17 +5,16 @@ const en = {
   space_sight: 'Seen',
   sight_space: 'space',
   space_truth: 'truth',
+  space_nodes: 'Nodes',
   space_node: 'Node {id}: bring to the front',
   space_attacked: 'its sensor is attacked: {letter}',
   space_label: 'The true way and the ways of the nodes of {lane} up to tick {k}, seen {sight}. {attacked}',
   space_label_plane: 'in the plane of {sight}',
-  space_label_space: 'in space; arrow keys or dragging turn it, Home or a double click turns it back',
+  space_label_space: 'in space; arrow keys or dragging turn it, Home or a double click turn it back',
   space_nobody: 'No sensor is attacked.',
   space_attacks: 'Attacked sensors: {list}.',
   space_empty: 'This run has no space: its scenario names no three position components.',
   space_no_lane: 'Lane {lane} sends no position in space.',
-  space_turn: 'drag to turn',
-  space_back: 'Turn back',
 };
 
 const zh: Translation<typeof en> = {
@@ -23,6 +22,7 @@ const zh: Translation<typeof en> = {
   space_sight: '视角',
   sight_space: '三维',
   space_truth: '真值',
+  space_nodes: '节点',
   space_node: '节点 {id}：置于前方',
   space_attacked: '其传感器受攻击：{letter}',
   space_label: '截至第 {k} 步的真实轨迹与 {lane} 各节点的估计轨迹，{sight}。{attacked}',
@@ -32,8 +32,6 @@ const zh: Translation<typeof en> = {
   space_attacks: '受攻击的传感器：{list}。',
   space_empty: '该运行没有三维空间：场景未指明三个位置分量。',
   space_no_lane: '{lane} 不输出三维位置。',
-  space_turn: '拖动旋转',
-  space_back: '复位',
 };
 
 export const t = dictionary('space', en, zh);

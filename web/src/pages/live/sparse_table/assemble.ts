@@ -33,7 +33,7 @@ export interface Table2 {
 /** Whether a run makes the figure: its document asks for it, or it is there already. */
 export function hasTable(run: RunDetail): boolean {
   const asked = (run.document?.metrics as { mse?: Record<string, unknown> } | undefined)?.mse;
-  return asked?.mse_px !== undefined || run.metrics.some((metric) => metric.name === 'mse_px' && metric.node !== null);
+  return asked?.mse_px !== undefined || (run.metrics ?? []).some((metric) => metric.name === 'mse_px' && metric.node !== null);
 }
 
 export function table2(lanes: readonly LaneModel[], nodes: readonly string[], metrics: readonly Metric[], name: MetricName): Table2 {
