@@ -81,18 +81,15 @@ bool Omp::grow(int column, const Eigen::Ref<const Eigen::VectorXd>& of_gram) {
   return true;
 }
 
-/// Gram-Schmidt on the column itself, twice: once loses orthogonality. False where too little of it is left.
+/// Modified Gram-Schmidt on the column itself, which solves least squares stably as long as y goes through it too.
+/// False where too little of the column is left.
 bool Omp::orthonormalise(const Eigen::Ref<const Eigen::VectorXd>& column) {
   const Eigen::Index n = count_;
   auto direction = orthonormal_.col(n);
   direction = column;
-  factor_.col(n).head(n).setZero();
-  for (int pass = 0; pass < 2; ++pass) {
-    for (Eigen::Index r = 0; r < n; ++r) {
-      const double along = orthonormal_.col(r).dot(direction);
-      factor_(r, n) += along;
-      direction -= along * orthonormal_.col(r);
-    }
+  for (Eigen::Index r = 0; r < n; ++r) {
+    factor_(r, n) = orthonormal_.col(r).dot(direction);
+    direction -= factor_(r, n) * orthonormal_.col(r);
   }
   const double square = direction.squaredNorm();
   if (!(square >= least_square_)) return false;
@@ -106,7 +103,7 @@ void Omp::join(int column) { support_[static_cast<std::size_t>(count_++)] = colu
 bool Omp::solve_gram(const Eigen::Ref<const Eigen::MatrixXd>& G, const Eigen::Ref<const Eigen::VectorXd>& b,
                      double norm_y, int picks, double tolerance) {
   const bool fits = G.rows() == entries_.size() && G.cols() == G.rows() && b.size() == G.rows();
-  if (!fits || !finite(G) || !finite(b)) return fail();
+  if (!fits || !finite(b)) return fail();
   gain_ = G.diagonal();
   if (!begin(gain_, norm_y)) return fail();
   correlation_ = b;
@@ -122,7 +119,7 @@ bool Omp::solve_gram(const Eigen::Ref<const Eigen::MatrixXd>& G, const Eigen::Re
     residual_ = std::sqrt(energy);
     join(column);
   }
-  return finish();
+  return finite(correlation_) ? finish() : fail();  // what the chosen columns hold has gone into it
 }
 
 bool Omp::solve(const Eigen::Ref<const Eigen::MatrixXd>& D, const Eigen::Ref<const Eigen::VectorXd>& y, int picks,

@@ -20,8 +20,9 @@ class Omp {
   Omp(int columns, int picks);
 
   /// The Gram form: G = D' D (columns x columns, symmetric, positive semidefinite), b = D' y, norm_y = ||y||. Allocates
-  /// nothing. The residual's norm is a difference of squares here, good to about 1e-8 ||y||. False where an input is
-  /// not finite or of another size: entries are zero then and the support is empty.
+  /// nothing. The residual's norm is a difference of squares here, good to about 1e-8 ||y||. False where an input has
+  /// another size or is not finite (of G: its diagonal and the chosen columns; the rest is not looked at): entries are
+  /// zero then and the support is empty.
   bool solve_gram(const Eigen::Ref<const Eigen::MatrixXd>& G, const Eigen::Ref<const Eigen::VectorXd>& b, double norm_y,
                   int picks, double tolerance);
   /// The same on the dictionary itself, D (rows x columns) and y (rows). Allocates where the number of rows is new.

@@ -187,6 +187,9 @@ TEST(BasisPursuit, KnowsNoScale) {
   const double norm = solved_both_ways(D, b);
   for (const double of_b : {1e-300, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e200}) {
     EXPECT_NEAR(solved_both_ways(D, of_b * b) / of_b, norm, 1e-6 * norm) << of_b;
+    BasisPursuit solver(12, 18);
+    ASSERT_TRUE(solver.solve(D, of_b * b));
+    EXPECT_FALSE(solver.finished_by_simplex());
   }
   for (const double of_D : {1e-100, 1e-6, 1e6, 1e100}) {
     EXPECT_NEAR(solved_both_ways(of_D * D, b) * of_D, norm, 1e-6 * norm) << of_D;
@@ -194,6 +197,18 @@ TEST(BasisPursuit, KnowsNoScale) {
   VectorXd of_rows(12);
   for (double& factor : of_rows) factor = std::pow(10, 12 * trial.uniform() - 6);
   EXPECT_NEAR(solved_both_ways(of_rows.asDiagonal() * D, of_rows.cwiseProduct(b)), norm, 1e-6 * norm);
+}
+
+TEST(BasisPursuit, RefusesRowsThatAreNearlyDependent) {
+  Trial trial(8);
+  MatrixXd D = trial.gaussian(4, 7);
+  const VectorXd b = trial.gaussian(4, 1);
+  const Eigen::RowVectorXd other = trial.gaussian(1, 7);
+  D.row(3) = D.row(1) + 1e-7 * other;
+  BasisPursuit solver(4, 7);
+  EXPECT_FALSE(solver.solve(D, b));
+  D.row(3) = D.row(1) + 1e-5 * other;
+  solved_both_ways(D, b);
 }
 
 TEST(BasisPursuit, FinishesByTheSimplexFromAnyIterate) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/linalg/dictionaries.hpp"
@@ -174,90 +173,6 @@ TEST(Omp, WeighsAColumnByItsLength) {
   EXPECT_EQ(support_of(omp), (Support{1}));
   EXPECT_NEAR(omp.entries()[1], 10, 1e-14);
   EXPECT_EQ(omp.entries()[0], 0);
-}
-
-TEST(Omp, PassesOverColumnsThatSayNothingNew) {
-  Trial trial(7);
-  Eigen::MatrixXd D = trial.gaussian(8, 6);
-  D.col(1) = D.col(0);
-  D.col(2) = -3 * D.col(0);
-  D.col(3).setZero();
-  D.col(5) = D.col(0) + D.col(4);
-  const Eigen::VectorXd y = trial.gaussian(8, 1);
-  Omp omp(6, 6);
-  const auto check = [&] {
-    EXPECT_EQ(omp.support().size(), 2U);  // the columns' rank
-    EXPECT_EQ(omp.entries()[3], 0);
-    const Eigen::VectorXd best = D * D.completeOrthogonalDecomposition().solve(y);
-    EXPECT_TRUE((D * omp.entries()).isApprox(best, 1e-12));
-  };
-  ASSERT_TRUE(omp.solve(D, y, 6, 0));
-  check();
-  ASSERT_TRUE(omp.solve_gram(D.transpose() * D, D.transpose() * y, y.norm(), 6, 0));
-  check();
-}
-
-TEST(Omp, PicksNothingWhereThereIsNothing) {
-  Omp omp(3, 3);
-  Trial trial(8);
-  const Eigen::MatrixXd D = trial.gaussian(3, 3);
-  ASSERT_TRUE(omp.solve(D, Eigen::Vector3d::Zero(), 3, 0));
-  EXPECT_TRUE(omp.support().empty());
-  ASSERT_TRUE(omp.solve(Eigen::Matrix3d::Zero(), Eigen::Vector3d::Ones(), 3, 0));
-  EXPECT_TRUE(omp.support().empty());
-  EXPECT_NEAR(omp.residual(), std::sqrt(3.0), 1e-15);
-  ASSERT_TRUE(omp.solve_gram(Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero(), 1, 3, 0));
-  EXPECT_TRUE(omp.support().empty());
-  ASSERT_TRUE(omp.solve(D, Eigen::Vector3d::Ones(), 0, 0));
-  EXPECT_TRUE(omp.support().empty());
-  EXPECT_TRUE(omp.entries().isZero(0));
-}
-
-TEST(Omp, CutsPicksToWhatItHasRoomFor) {
-  Omp omp(4, 2);
-  ASSERT_TRUE(omp.solve_gram(Eigen::Matrix4d::Identity(), Eigen::Vector4d(1, 2, 3, 4), std::sqrt(30.0), 4, 0));
-  EXPECT_EQ(support_of(omp), (Support{3, 2}));
-}
-
-TEST(Omp, KnowsNoScale) {
-  Trial trial(9);
-  const Eigen::MatrixXd D = trial.gaussian(10, 14);
-  const Eigen::VectorXd y = trial.gaussian(10, 1);
-  Omp plain(14, 8), scaled(14, 8);
-  ASSERT_TRUE(plain.solve_gram(D.transpose() * D, D.transpose() * y, y.norm(), 8, 0));
-  for (const double factor : {0x1p-100, 0x1p-20, 0x1p20, 0x1p100}) {
-    const Eigen::MatrixXd F = factor * D;
-    ASSERT_TRUE(scaled.solve_gram(F.transpose() * F, F.transpose() * y, y.norm(), 8, 0));
-    EXPECT_EQ(support_of(scaled), support_of(plain));
-    EXPECT_TRUE((factor * scaled.entries()).isApprox(plain.entries(), 1e-12));
-  }
-}
-
-TEST(Omp, SaysSoWhereAnInputIsNotFiniteOrOfAnotherSize) {
-  Trial trial(10);
-  const Eigen::MatrixXd D = trial.gaussian(4, 5);
-  const Eigen::MatrixXd gram = D.transpose() * D;
-  const Eigen::VectorXd y = trial.gaussian(4, 1), b = D.transpose() * y;
-  Omp omp(5, 3);
-  const auto refused = [&](bool solved) {
-    return !solved && omp.entries() == Eigen::VectorXd::Zero(5) && omp.support().empty();
-  };
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    ASSERT_TRUE(omp.solve(D, y, 3, 0));
-    Eigen::MatrixXd spoilt = D, spoilt_gram = gram;
-    spoilt(2, 3) = spoilt_gram(2, 3) = bad;
-    Eigen::VectorXd spoilt_y = y, spoilt_b = b;
-    spoilt_y[1] = spoilt_b[4] = bad;
-    EXPECT_TRUE(refused(omp.solve(spoilt, y, 3, 0)));
-    EXPECT_TRUE(refused(omp.solve(D, spoilt_y, 3, 0)));
-    EXPECT_TRUE(refused(omp.solve_gram(spoilt_gram, b, y.norm(), 3, 0)));
-    EXPECT_TRUE(refused(omp.solve_gram(gram, spoilt_b, y.norm(), 3, 0)));
-    EXPECT_TRUE(refused(omp.solve_gram(gram, b, bad, 3, 0)));
-  }
-  EXPECT_TRUE(refused(omp.solve(D.leftCols(4), y, 3, 0)));
-  EXPECT_TRUE(refused(omp.solve(D, b, 3, 0)));
-  EXPECT_TRUE(refused(omp.solve_gram(gram, y, y.norm(), 3, 0)));
-  EXPECT_TRUE(refused(omp.solve(1e300 * D, y, 3, 0))) << "squares overflow";
 }
 
 #ifdef VIGIL_COUNTS_MALLOC
