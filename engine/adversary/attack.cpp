@@ -38,11 +38,13 @@ void SensorEffects::resize(const std::vector<int>& channels) {
   injected.clear();
   for (const int size : channels) injected.emplace_back(Eigen::VectorXd::Zero(size));
   state.assign(channels.size(), SensorState::clean);
+  playback.assign(channels.size(), {});
 }
 
 void SensorEffects::clear() {
   for (Eigen::VectorXd& value : injected) value.setZero();
   std::fill(state.begin(), state.end(), SensorState::clean);
+  std::fill(playback.begin(), playback.end(), Playback{});
 }
 
 void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, SensorState as) {
@@ -58,6 +60,17 @@ void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::
 void SensorEffects::set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, SensorState as) {
   injected[static_cast<std::size_t>(node)] = value;
   state[static_cast<std::size_t>(node)] = as;
+}
+
+void SensorEffects::play(int node, const Playback& record) {
+  const auto i = static_cast<std::size_t>(node);
+  playback[i] = record;
+  state[i] = SensorState::replay;
+  if (record.channel >= 0) {
+    injected[i][record.channel] = 0;
+  } else {
+    injected[i].setZero();
+  }
 }
 
 }  // namespace vigil

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,16 +44,26 @@ enum class SensorState : std::uint8_t { clean = 0, dos = 1, fdi = 2, replay = 3,
 /// The word of a state: "clean", "DoS", "FDI", "replay", "I", "II", "R".
 const char* word(SensorState state);
 
+/// A record played back in place of what a sensor sends.
+struct Playback {
+  std::int64_t from = -1, to = -1;  ///< ticks of the record, both ends included
+  std::int64_t source = -1;         ///< the tick of it that is played now; -1: nothing is
+  int channel = -1;                 ///< of the sensor; -1: the whole reading
+};
+
 /// What happens to every reading in one tick, on its way to the receivers.
 struct SensorEffects {
   std::vector<Eigen::VectorXd> injected;  ///< one a node, zero where nothing is injected
   std::vector<SensorState> state;         ///< one a node
+  std::vector<Playback> playback;         ///< one a node; what is injected is added to it
 
   void resize(const std::vector<int>& channels);
   void clear();
   void add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, SensorState as);
   /// Replaces what earlier attacks injected at this node: for attacks of which the later start wins.
   void set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, SensorState as);
+  /// Plays a record back at this node, and takes off what earlier attacks injected there.
+  void play(int node, const Playback& record);
 };
 
 /// What a receiver may know of a channel's statistics: the published probabilities and the bound, never a realisation.
@@ -65,9 +76,12 @@ struct LinkRates {
 struct AttackContext {
   std::string id;  ///< names its draws
   std::uint64_t seed = 0;
-  int message = 0;            ///< size of what a link carries: the plant's states
-  bool on_links = true;       ///< it acts on some link
-  std::vector<int> readings;  ///< sizes of what it acts on at sensors: a whole reading's channels, or 1
+  int message = 0;                 ///< size of what a link carries: the plant's states
+  bool on_links = true;            ///< it acts on some link
+  std::vector<int> readings;       ///< sizes of what it acts on at sensors: a whole reading's channels, or 1
+  std::int64_t from = 1;           ///< the first tick it may act
+  std::optional<std::int64_t> to;  ///< the last
+  bool by_hand = false;            ///< started in a live run
 };
 
 enum class ChannelKind { link, sensor };
@@ -83,6 +97,10 @@ class Attack {
   virtual void act(std::int64_t /*k*/, std::span<const int> /*links*/, LinkEffects& /*effects*/) const {}
   /// The same on sensors.
   virtual void tamper(std::int64_t /*k*/, std::span<const SensorPlace> /*places*/, SensorEffects& /*effects*/) const {}
+  /// False at ticks between its first and last at which it does nothing: where it begins and ends is what people see.
+  virtual bool active(std::int64_t /*k*/) const { return true; }
+  /// A sentence for the mark of its begin; empty: nothing to say.
+  virtual std::string remark() const { return {}; }
   virtual LinkRates rates() const { return {}; }
 };
 

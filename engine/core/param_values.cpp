@@ -62,6 +62,19 @@ Eigen::VectorXd Params::vector(std::string_view name) const {
   return result;
 }
 
+Eigen::MatrixXd Params::matrix(std::string_view name) const {
+  const Json& value = at(name);
+  if (value.is_number()) return Eigen::MatrixXd::Constant(1, 1, value.get<double>());
+  if (value.front().is_number()) return vector(name).asDiagonal();
+  const auto rows = static_cast<Eigen::Index>(value.size()), columns = static_cast<Eigen::Index>(value.front().size());
+  Eigen::MatrixXd result(rows, columns);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    for (Eigen::Index c = 0; c < columns; ++c)
+      result(r, c) = value[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)].get<double>();
+  }
+  return result;
+}
+
 Eigen::MatrixXd Params::square(std::string_view name, int n) const {
   try {
     return square_matrix(at(name), n, "");

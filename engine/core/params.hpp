@@ -89,6 +89,8 @@ class Params {
   /// A square matrix of size n from [[..]], a diagonal or a number. Throws InputError (pointer "") when the sizes do
   /// not fit.
   Eigen::MatrixXd square(std::string_view name, int n) const;
+  /// A matrix of any shape from [[..]], a diagonal or a number.
+  Eigen::MatrixXd matrix(std::string_view name) const;
   const Json& values() const { return values_; }
 
  private:

@@ -38,4 +38,18 @@ Eigen::MatrixXd symmetric_root(const Eigen::MatrixXd& matrix) {
   return eigen.eigenvectors() * roots.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& matrix) {
+  const Eigen::Index n = matrix.rows();
+  const double least = 1e-14 * matrix.cwiseAbs().maxCoeff();
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const double pivot = matrix(c, c) - L.row(c).head(c).squaredNorm();
+    if (pivot <= least) continue;
+    L(c, c) = std::sqrt(pivot);
+    for (Eigen::Index r = c + 1; r < n; ++r)
+      L(r, c) = (matrix(r, c) - L.row(r).head(c).dot(L.row(c).head(c))) / L(c, c);
+  }
+  return L;
+}
+
 }  // namespace vigil

@@ -18,5 +18,7 @@ void check_covariance(const Eigen::MatrixXd& matrix, const std::string& pointer,
 
 /// The symmetric square root of a positive semidefinite matrix: legal where a Cholesky factor is not.
 Eigen::MatrixXd symmetric_root(const Eigen::MatrixXd& matrix);
+/// The lower Cholesky factor of a positive semidefinite matrix; the column of a zero pivot is zero.
+Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& matrix);
 
 }  // namespace vigil

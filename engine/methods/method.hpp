@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,6 +31,8 @@ struct Knowledge {
   Eigen::MatrixXd P0;            ///< covariance of the initial estimates
   Eigen::MatrixXd estimates;     ///< initial estimates, states x nodes
   std::vector<LinkRates> rates;  ///< one a link: the adversary's published statistics (zero for a lane that is spared)
+  Eigen::MatrixXd Mw;            ///< shape of the bounded process noise, states x states; zero: none
+  bool monitor = false;          ///< its estimator hears what was sent, only its detector what arrived
   double dt = 1;                 ///< s
   std::uint64_t seed = 0;        ///< of a method's own draws: Draws(seed, "method.<what>"), the same for every lane
 };
@@ -61,6 +64,14 @@ struct Reconstruction {
   int window = 0;
 };
 
+/// What a detector says at one output in one tick.
+struct Detection {
+  double statistic = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none in this tick
+  double threshold = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none yet
+  bool judged = false;                                          ///< it could have said something
+  bool alarm = false;
+};
+
 /// Where a method reports what went wrong. Counted by node and code.
 class FaultReport {
  public:
@@ -90,7 +101,8 @@ struct OwnMetric {
   bool boolean = false;
 };
 
-/// One tick of the lane calls predict, measure, then (for message() > 0) send at every node, then update, then publish.
+/// One tick of the lane calls emit at every node, predict, measure, then (for message() > 0) send at every node, then
+/// update, judge, where the lane controls its plant mark_input, and publish.
 class Method {
  public:
   virtual ~Method() = default;
@@ -100,6 +112,13 @@ class Method {
   virtual int message() const { return 0; }              ///< size of what a node sends; 0: uses no channel
   virtual void declare(SignalScope& /*scope*/) {}
 
+  /// True where something of its own leaves the sensors: a mark, or a message that the sensor makes.
+  virtual bool marks() const { return false; }
+  /// The sensor side of a node: what leaves for a reading. input: what acted on the plant since the last tick.
+  virtual void emit(int /*node*/, const Eigen::VectorXd& reading, const Eigen::VectorXd& /*input*/,
+                    Eigen::VectorXd& sent) {
+    sent = reading;
+  }
   virtual void predict(const Eigen::VectorXd& input, FaultReport& report) = 0;
   /// What a node does with its own reading before it speaks to others.
   virtual void measure(const Readings& /*readings*/, FaultReport& /*report*/) {}
@@ -107,17 +126,30 @@ class Method {
   /// `inbox` has one delivery a link of the graph.
   virtual void update(const Readings& /*readings*/, std::span<const Delivery> /*inbox*/, FaultReport& /*report*/) {}
 
+  /// The detector's part: readings as they arrived (for the path "monitor" these are not what measure() was given).
+  virtual void judge(const Readings& /*arrived*/, FaultReport& /*report*/) {}
+  /// Adds the keyed mark of a controlled plant's input, known to the method alone. u: inputs, acts from tick k on.
+  virtual void mark_input(std::int64_t /*k*/, Eigen::Ref<Eigen::VectorXd> /*u*/) {}
+  /// False until it has an estimate that may drive the plant.
+  virtual bool ready() const { return true; }
+
   virtual Belief belief(int output) const = 0;
   /// Readings that its reconstructions span; 0: it makes none.
   virtual int window() const { return 0; }
   virtual Reconstruction reconstruction(int /*output*/) const { return {}; }
   /// The node whose estimate this output took in this tick, itself included; -1: it does not choose.
   virtual int choice(int /*output*/) const { return -1; }
+  virtual bool detects() const { return false; }
+  virtual Detection detection(int /*output*/) const { return {}; }
+  /// Ticks after an attack whose statistic still holds readings of it.
+  virtual int tail() const { return 0; }
   /// Writes its own signals of this tick (tick 0: the initial state) into the frame.
   virtual void publish(std::span<double> values) const { static_cast<void>(values); }
 
   virtual Json design() const { return Json::object(); }
   virtual std::vector<OwnMetric> metrics() const { return {}; }
+  /// Sentences about the run so far that a reader must know, such as that its detector is blind.
+  virtual std::vector<std::string> warnings() const { return {}; }
   /// True where its covariance is a bound whose campaign-wide ratio is worth taking.
   virtual bool has_bound() const { return true; }
 

@@ -40,6 +40,8 @@ struct MseFigure {
 struct ScoreRules {
   ScoreWindow window;
   std::vector<MseFigure> mse;
+  std::int64_t detection_from = 50;  ///< first tick that may count as a false alarm
+  std::int64_t state_from = 20;      ///< first tick of rmse_state and peak_error
 };
 
 /// Sums over the ticks of one lane's window. A value: copies are forks.

@@ -110,7 +110,7 @@ std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, c
   std::vector<Problem> problems;
   const Json complete = kind->params.complete(given, pointer + "/params", problems);
   if (!problems.empty()) throw InputError(std::move(problems));
-  AttackContext context{entry.id, seed_, message_, !entry.links.empty(), {}};
+  AttackContext context{entry.id, seed_, message_, !entry.links.empty(), {}, entry.from, entry.to, entry.by_hand};
   for (const SensorPlace& place : entry.sensors) {
     context.readings.push_back(
         place.channel >= 0 ? 1 : static_cast<int>(channels_[static_cast<std::size_t>(place.node)].size()));
@@ -162,12 +162,14 @@ void Adversary::mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const 
   if (entry.links.size() > 1) mark.detail = fmt::format("{} links", entry.links.size());
   if (entry.sensors.size() > 1)
     mark.detail += fmt::format("{}{} sensors", mark.detail.empty() ? "" : ", ", entry.sensors.size());
+  const std::string remark = entry.acting ? entry.attack->remark() : "";
+  if (!remark.empty()) mark.detail += (mark.detail.empty() ? "" : "; ") + remark;
   sink.mark(mark);
 }
 
 void Adversary::act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, Sink& sink) {
   for (Entry& entry : entries_) {
-    const bool acts = entry.enabled && k >= entry.from && (!entry.to || k <= *entry.to);
+    const bool acts = entry.enabled && k >= entry.from && (!entry.to || k <= *entry.to) && entry.attack->active(k);
     if (acts != entry.acting) {
       entry.acting = acts;
       mark_edge(k, entry, sink);

@@ -139,7 +139,7 @@ void Run::State::retune_lane(const ParamGroup& group) {
     if (const auto problem = entry->params.check(*declared, value, "/" + name)) throw InputError({*problem});
     changed[name] = value;
   }
-  lane->method().retune(Params(changed));
+  lane->retune(Params(changed));
   lane->params() = std::move(changed);
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/run/sensor_signals.hpp"
+
 namespace vigil {
 namespace {
 
@@ -39,40 +41,51 @@ std::string square_unit(const std::string& unit) { return unit.empty() ? "" : un
 
 }  // namespace
 
-Lane::Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params,
-           const Plant& plant, const std::vector<int>& channels, const Graph& graph, const ScoreRules& rules)
-    : id_(std::move(id)),
-      method_id_(std::move(method_id)),
-      spared_(spared),
-      method_(std::move(method)),
-      params_(std::move(params)),
-      outputs_(method_->outputs()),
-      score_(plant, outputs_, rules),
-      attack_score_(channels, method_->window(), static_cast<int>(outputs_.size())) {
-  for (const Component& component : plant.state()) periods_.push_back(component.period);
-  inbox_.resize(method_->message() > 0 ? graph.links().size() : 0);
-  for (Delivery& delivery : inbox_) delivery.payload = Eigen::VectorXd::Zero(method_->message());
-  sent_ = Eigen::MatrixXd::Zero(method_->message(), graph.nodes());
-  record_.lane = id_;
-  record_.states = plant.states();
+Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, const World& world, const Graph& graph)
+    : options_(std::move(options)),
+      contender_(std::move(method), world, graph, options_.side, options_.monitor, options_.last),
+      outputs_(contender_.method().outputs()),
+      score_(*world.plant, outputs_, options_.rules),
+      state_score_(*world.plant, options_.rules.state_from),
+      twin_score_(state_score_),
+      alarms_(outputs_.size(), 0),
+      marked_(outputs_.size(), 0) {
+  const Method& mine = contender_.method();
+  std::vector<int> channels;
+  for (const auto& sensor : world.sensors) channels.push_back(sensor->size());
+  no_effects_.resize(channels);
+  recorded_effects_.resize(channels);
+  attack_score_ = AttackScore(channels, mine.window(), static_cast<int>(outputs_.size()));
+  for (const Component& component : world.plant->state()) periods_.push_back(component.period);
+  if (mine.detects()) detection_.assign(outputs_.size(), {options_.rules.detection_from, mine.tail()});
+  const bool simulated = options_.side == Contender::Side::closed || options_.side == Contender::Side::marked;
+  if (!options_.spared && simulated) twin_.emplace(contender_);
+  record_.lane = options_.id;
+  record_.states = world.plant->states();
 }
 
 Lane::Lane(const Lane& other)
-    : id_(other.id_),
-      method_id_(other.method_id_),
-      spared_(other.spared_),
-      method_(other.method_->clone()),
-      params_(other.params_),
+    : options_(other.options_),
+      contender_(other.contender_),
+      twin_(other.twin_),
       outputs_(other.outputs_),
-      inbox_(other.inbox_),
-      sent_(other.sent_),
       faults_(other.faults_),
+      twin_faults_(other.twin_faults_),
+      no_effects_(other.no_effects_),
+      recorded_effects_(other.recorded_effects_),
       score_(other.score_),
       attack_score_(other.attack_score_),
+      state_score_(other.state_score_),
+      twin_score_(other.twin_score_),
+      detection_(other.detection_),
       periods_(other.periods_),
       slots_(other.slots_),
+      course_slot_(other.course_slot_),
+      sensor_slot_(other.sensor_slot_),
       rmse_slot_(other.rmse_slot_),
       spread_slot_(other.spread_slot_),
+      alarms_(other.alarms_),
+      marked_(other.marked_),
       recording_(other.recording_),
       record_(other.record_) {
   record_.errors.reserve(other.record_.errors.capacity());
@@ -80,22 +93,23 @@ Lane::Lane(const Lane& other)
 }
 
 void Lane::record_bounds(std::int64_t ticks) {
-  recording_ = method_->has_bound();
+  recording_ = method().has_bound();
   if (!recording_) return;
   const std::size_t cells = static_cast<std::size_t>(ticks) * outputs_.size(), n = periods_.size();
   record_.errors.reserve(cells * n);
   record_.bounds.reserve(cells * n * n);
 }
 
-void Lane::declare(const Plant& plant, Catalogue& catalogue) {
-  LaneScope scope(id_, outputs_, catalogue);
-  const auto& groups = plant.errors();
+void Lane::declare(const World& world, const std::vector<std::string>& nodes, Catalogue& catalogue) {
+  LaneScope scope(id(), outputs_, catalogue);
+  const auto& groups = world.plant->errors();
   rmse_slot_ = scope.add(-1, "rmse", groups[0].unit, SignalKind::scalar);
   if (outputs_.size() > 1) spread_slot_ = scope.add(-1, "spread", groups[0].unit, SignalKind::scalar);
+  if (options_.side != Contender::Side::shared) declare_course(world, nodes, scope, catalogue);
   for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) {
     Slots slots{};
     slots.estimate = catalogue.size();
-    for (const Component& component : plant.state())
+    for (const Component& component : world.plant->state())
       scope.add(o, "estimate." + component.name, component.unit, SignalKind::scalar);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::string suffix = g == 0 ? "" : "_" + groups[g].name;
@@ -104,54 +118,132 @@ void Lane::declare(const Plant& plant, Catalogue& catalogue) {
     }
     slots.nees = scope.add(o, "nees", "", SignalKind::scalar);
     slots.nis = scope.add(o, "nis", "", SignalKind::scalar);
+    if (method().detects()) {
+      slots.statistic = scope.add(o, "statistic", "", SignalKind::scalar);
+      slots.threshold = scope.add(o, "threshold", "", SignalKind::scalar);
+      slots.alarm = scope.add(o, "alarm", "", SignalKind::boolean);
+    }
     slots_.push_back(slots);
   }
-  method_->declare(scope);
+  method().declare(scope);
 }
 
-void Lane::exchange(const Graph& graph, std::span<const int> base, const LinkEffects& effects) {
-  for (int node = 0; node < graph.nodes(); ++node) method_->send(node, sent_.col(node));
-  for (std::size_t l = 0; l < graph.links().size(); ++l) {
-    Delivery& delivery = inbox_[l];
-    const int place = base[l];
-    const LinkState state = spared_ ? LinkState::clean : effects.state[static_cast<std::size_t>(place)];
-    delivery.lost = state == LinkState::dos;
-    delivery.flagged = state == LinkState::fdi;
-    delivery.payload = sent_.col(graph.links()[l].from);
-    if (delivery.flagged) delivery.payload += effects.injected.col(place);  // (6)
+/// lane.<lane>.truth.…, .input.…, .sensor.…: what belongs to the lane.
+void Lane::declare_course(const World& world, const std::vector<std::string>& nodes, SignalScope& scope,
+                          Catalogue& catalogue) {
+  course_slot_ = catalogue.size();
+  for (const Component& c : world.plant->state()) scope.add(-1, "truth." + c.name, c.unit, SignalKind::scalar);
+  for (const Component& c : world.plant->input()) scope.add(-1, "input." + c.name, c.unit, SignalKind::scalar);
+  sensor_slot_ = declare_sensors("lane." + id() + ".", id(), nodes, world, catalogue);
+}
+
+void Lane::begin(const World& world, const Eigen::VectorXd& truth) {
+  contender_.begin(world, truth);
+  if (twin_) twin_->begin(world, truth);
+}
+
+const SensorEffects& Lane::effects(const Tick& tick) const {
+  if (options_.side == Contender::Side::recorded) return recorded_effects_;
+  return options_.spared ? no_effects_ : tick.sensors;
+}
+
+void Lane::tick(const Tick& tick) {
+  if (stopped()) return;
+  faults_.begin_tick(tick.k);
+  contender_.tick(tick, !options_.spared, no_effects_, faults_);
+  if (twin_ && !twin_faults_.stopped()) {
+    twin_faults_.begin_tick(tick.k);
+    twin_->tick(tick, false, no_effects_, twin_faults_);
   }
+  if (!stopped()) judge(tick);
 }
 
-void Lane::tick(std::int64_t k, const Graph& graph, std::span<const int> base, const LinkEffects& effects,
-                const Eigen::VectorXd& input, const Readings& readings) {
-  if (stopped()) return;
-  faults_.begin_tick(k);
-  method_->predict(input, faults_);
-  if (stopped()) return;
-  method_->measure(readings, faults_);
-  if (stopped()) return;
-  if (method_->message() > 0) exchange(graph, base, effects);
-  method_->update(readings, inbox_, faults_);
-}
-
-void Lane::publish(std::int64_t k, const Eigen::VectorXd& truth, const SensorEffects& attacks, const Plant& plant,
-                   std::span<double> values) {
-  if (stopped()) return;
-  if (k > 0 && method_->window() > 0) {
-    attack_score_.note(attacks);
+/// Step 7, apart from the errors that are signals, too.
+void Lane::judge(const Tick& tick) {
+  if (method().window() > 0) {
+    attack_score_.note(effects(tick));
     for (int o = 0; o < static_cast<int>(outputs_.size()); ++o)
-      attack_score_.judge(o, method_->reconstruction(o), method_->choice(o));
+      attack_score_.judge(o, method().reconstruction(o), method().choice(o));
   }
+  if (method().detects()) judge_detection(tick);
+  if (options_.side == Contender::Side::shared) return;
+  if (method().ready()) state_score_.note(tick.k, contender_.course(tick.shared).truth, method().belief(0).mean);
+  if (twin_ && twin_->method().ready())
+    twin_score_.note(tick.k, twin_->course(tick.shared).truth, twin_->method().belief(0).mean);
+}
+
+void Lane::judge_detection(const Tick& tick) {
+  const SensorEffects& truth = effects(tick);
+  for (std::size_t o = 0; o < outputs_.size(); ++o) {
+    const int output = static_cast<int>(o);
+    const Detection detection = method().detection(output);
+    alarms_[o] = detection.alarm ? 1 : 0;
+    const bool twin_alarm = twin_ && !twin_faults_.stopped() && twin_->method().detection(output).alarm;
+    const bool attacked = o < truth.state.size() && truth.state[o] != SensorState::clean;
+    detection_[o].note(tick.k, attacked, detection.alarm, twin_alarm);
+  }
+}
+
+void Lane::mark_edges(std::int64_t k, Sink& sink) {
+  for (std::size_t o = 0; o < alarms_.size(); ++o) {
+    if (alarms_[o] == marked_[o]) continue;
+    marked_[o] = alarms_[o];
+    Mark mark;
+    mark.k = k;
+    mark.type = MarkType::alarm;
+    mark.edge = alarms_[o] != 0 ? MarkEdge::begin : MarkEdge::end;
+    mark.lane = id();
+    mark.node = outputs_[o];
+    mark.code = "detection";
+    sink.mark(mark);
+  }
+  faults_.mark_edges(id(), outputs_, sink);
+}
+
+void Lane::append_metrics(std::vector<MetricValue>& metrics) const {
+  score_.append_metrics(id(), metrics);
+  attack_score_.append_metrics(id(), outputs_, metrics);
+  const bool alone = outputs_.size() == 1;
+  for (std::size_t o = 0; o < detection_.size(); ++o)
+    detection_[o].append_metrics(id(), alone ? "" : outputs_[o], twin_.has_value(), metrics);
+  if (options_.side == Contender::Side::shared) return;
+  if (twin_) twin_score_.append_metrics(id(), "", metrics);
+  state_score_.append_metrics(id(), options_.spared ? "" : "_attacked", metrics);
+}
+
+void Lane::retune(const Params& params) {
+  method().retune(params);
+  if (twin_) twin_->method().retune(params);
+}
+
+void Lane::publish(const Tick& tick, std::span<double> values) {
+  if (stopped()) return;
+  const Plant& plant = *tick.world.plant;
+  const Eigen::VectorXd& truth = contender_.course(tick.shared).truth;
   double square = 0;
-  for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) publish_output(k, o, truth, plant, values, square);
+  for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) publish_output(tick.k, o, truth, plant, values, square);
   values[static_cast<std::size_t>(rmse_slot_)] = std::sqrt(square / static_cast<double>(outputs_.size()));
   if (spread_slot_ >= 0) publish_spread(plant, values);
-  method_->publish(values);
+  if (options_.side != Contender::Side::shared) publish_course(tick, values);
+  method().publish(values);
+}
+
+void Lane::publish_course(const Tick& tick, std::span<double> values) const {
+  const Course& course = contender_.course(tick.shared);
+  auto* at = values.data() + course_slot_;
+  for (Eigen::Index c = 0; c < course.truth.size(); ++c) *at++ = course.truth[c];
+  if (tick.k == 0) return;
+  for (Eigen::Index c = 0; c < course.input.size(); ++c) *at++ = course.input[c];
+  publish_sensors(course, effects(tick), values.data() + sensor_slot_);
 }
 
 void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& truth, const Plant& plant,
                           std::span<double> values, double& square) {
-  const Belief belief = method_->belief(output);
+  if (!method().ready()) {
+    square = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  const Belief belief = method().belief(output);
   const Slots& slots = slots_[static_cast<std::size_t>(output)];
   const auto put = [&](int slot, double value) { values[static_cast<std::size_t>(slot)] = value; };
   const int n = plant.states();
@@ -167,12 +259,21 @@ void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& tru
   }
   put(slots.nees, score.nees);
   put(slots.nis, score.nis);
+  if (method().detects()) publish_detection(output, values);
   square += score.error[0] * score.error[0];
   if (recording_ && k > 0 && belief.covariance != nullptr) {
     const BoundedVector e = state_error(truth, belief.mean, periods_);
     record_.errors.insert(record_.errors.end(), e.data(), e.data() + n);
     record_.bounds.insert(record_.bounds.end(), belief.covariance, belief.covariance + n * n);
   }
+}
+
+void Lane::publish_detection(int output, std::span<double> values) const {
+  const Slots& slots = slots_[static_cast<std::size_t>(output)];
+  const Detection detection = method().detection(output);
+  values[static_cast<std::size_t>(slots.statistic)] = detection.statistic;
+  values[static_cast<std::size_t>(slots.threshold)] = detection.threshold;
+  if (detection.judged) values[static_cast<std::size_t>(slots.alarm)] = detection.alarm ? 1 : 0;
 }
 
 /// Consensus spread: the largest distance of an estimate from the nodes' mean, over the position-like components.
@@ -194,10 +295,9 @@ void Lane::publish_spread(const Plant& plant, std::span<double> values) const {
 }
 
 void Lane::rewire(const Graph& graph, const std::vector<LinkRates>& rates) {
-  method_->rewire(graph, spared_ ? std::vector<LinkRates>(rates.size()) : rates);
-  if (method_->message() == 0) return;
-  inbox_.resize(graph.links().size());
-  for (Delivery& delivery : inbox_) delivery.payload = Eigen::VectorXd::Zero(method_->message());
+  const std::vector<LinkRates> mine = options_.spared ? std::vector<LinkRates>(rates.size()) : rates;
+  contender_.rewire(graph, mine);
+  if (twin_) twin_->rewire(graph, mine);
 }
 
 }  // namespace vigil

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,41 +10,59 @@
 #include "engine/methods/method.hpp"
 #include "engine/metrics/attack_score.hpp"
 #include "engine/metrics/bound_ratio.hpp"
+#include "engine/metrics/detection_score.hpp"
 #include "engine/metrics/lane_score.hpp"
+#include "engine/metrics/state_score.hpp"
+#include "engine/run/contender.hpp"
 #include "engine/run/fault_table.hpp"
 
 namespace vigil {
 
+/// What a lane is made of besides its method.
+struct LaneOptions {
+  std::string id, method_id;
+  bool spared = false;   ///< the adversary does not touch it
+  bool monitor = false;  ///< path "monitor"
+  Contender::Side side = Contender::Side::shared;
+  std::optional<std::int64_t> last;  ///< the run's last tick
+  Json params;
+  ScoreRules rules;
+};
+
 class Lane {
  public:
-  /// `spared`: the adversary does not touch it. `channels`: of each node's sensor.
-  Lane(std::string id, std::string method_id, bool spared, std::unique_ptr<Method> method, Json params,
-       const Plant& plant, const std::vector<int>& channels, const Graph& graph, const ScoreRules& rules);
+  Lane(LaneOptions options, std::unique_ptr<Method> method, const World& world, const Graph& graph);
   Lane(const Lane& other);
   Lane(Lane&&) noexcept = default;
 
-  void declare(const Plant& plant, Catalogue& catalogue);
-  /// Steps 4, 5 and 7 of a tick. `base` maps each link of `graph` to its place in `effects`.
-  void tick(std::int64_t k, const Graph& graph, std::span<const int> base, const LinkEffects& effects,
-            const Eigen::VectorXd& input, const Readings& readings);
-  /// Scores against the truth and writes the lane's signals (NaN once it has stopped).
-  /// `attacks`: what really happened to the readings that this lane heard.
-  void publish(std::int64_t k, const Eigen::VectorXd& truth, const SensorEffects& attacks, const Plant& plant,
-               std::span<double> values);
+  void declare(const World& world, const std::vector<std::string>& nodes, Catalogue& catalogue);
+  /// Tick 0.
+  void begin(const World& world, const Eigen::VectorXd& truth);
+  /// Steps 1 to 7 of a tick.
+  void tick(const Tick& tick);
+  /// Scores against the truth and writes the lane's signals (NaN once it has stopped). `attacks`: what really happened
+  /// to the readings that this lane heard.
+  void publish(const Tick& tick, std::span<double> values);
+  /// Marks where alarms and faults begin and end.
+  void mark_edges(std::int64_t k, Sink& sink);
   void rewire(const Graph& graph, const std::vector<LinkRates>& rates);
+  void append_metrics(std::vector<MetricValue>& metrics) const;
 
-  const std::string& id() const { return id_; }
-  const std::string& method_id() const { return method_id_; }
-  bool spared() const { return spared_; }
+  const std::string& id() const { return options_.id; }
+  const std::string& method_id() const { return options_.method_id; }
+  bool spared() const { return options_.spared; }
   bool stopped() const { return faults_.stopped(); }
-  Method& method() { return *method_; }
-  const Method& method() const { return *method_; }
-  Json& params() { return params_; }
+  Method& method() { return contender_.method(); }
+  const Method& method() const { return contender_.method(); }
+  Contender& contender() { return contender_; }
+  /// Where a trace describes the lane's own readings: what happened to them.
+  SensorEffects& recorded_effects() { return recorded_effects_; }
+  Json& params() { return options_.params; }
+  void retune(const Params& params);
   FaultTable& faults() { return faults_; }
   const FaultTable& faults() const { return faults_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
   const LaneScore& score() const { return score_; }
-  const AttackScore& attack_score() const { return attack_score_; }
   /// Keeps errors and bounds of ticks 1 to `ticks` for a campaign's bound ratio; room for them is made here, none in a
   /// tick.
   void record_bounds(std::int64_t ticks);
@@ -53,25 +72,34 @@ class Lane {
   struct Slots {
     int estimate, nees, nis;
     int error[LaneScore::kMaxGroups], bound[LaneScore::kMaxGroups];
+    int statistic = -1, threshold = -1, alarm = -1;
   };
-  void exchange(const Graph& graph, std::span<const int> base, const LinkEffects& effects);
+  const SensorEffects& effects(const Tick& tick) const;
+  void declare_course(const World& world, const std::vector<std::string>& nodes, SignalScope& scope,
+                      Catalogue& catalogue);
+  void publish_course(const Tick& tick, std::span<double> values) const;
   void publish_output(std::int64_t k, int output, const Eigen::VectorXd& truth, const Plant& plant,
                       std::span<double> values, double& square);
+  void publish_detection(int output, std::span<double> values) const;
   void publish_spread(const Plant& plant, std::span<double> values) const;
+  void judge(const Tick& tick);
+  void judge_detection(const Tick& tick);
 
-  std::string id_, method_id_;
-  bool spared_;
-  std::unique_ptr<Method> method_;
-  Json params_;
+  LaneOptions options_;
+  Contender contender_;
+  std::optional<Contender> twin_;  ///< the same lane without any attack, where detection is scored
   std::vector<std::string> outputs_;
-  std::vector<Delivery> inbox_;
-  Eigen::MatrixXd sent_;  ///< message size x nodes
-  FaultTable faults_;
+  FaultTable faults_, twin_faults_;
+  SensorEffects no_effects_, recorded_effects_;
   LaneScore score_;
   AttackScore attack_score_;
+  StateScore state_score_, twin_score_;
+  std::vector<DetectionScore> detection_;
   std::vector<double> periods_;
   std::vector<Slots> slots_;
+  int course_slot_ = -1, sensor_slot_ = -1;
   int rmse_slot_ = -1, spread_slot_ = -1;
+  std::vector<char> alarms_, marked_;  ///< of each output, as it is and as it was last marked
   bool recording_ = false;
   BoundRecord record_;
 };

@@ -60,8 +60,7 @@ void Run::apply(const Command& command) {
 std::vector<MetricValue> Run::metrics() const {
   std::vector<MetricValue> metrics;
   for (const Lane& lane : state_->lanes) {
-    lane.score().append_metrics(lane.id(), metrics);
-    lane.attack_score().append_metrics(lane.id(), lane.outputs(), metrics);
+    lane.append_metrics(metrics);
     for (const OwnMetric& own : lane.method().metrics()) {
       metrics.push_back({lane.id(), own.output >= 0 ? lane.outputs()[static_cast<std::size_t>(own.output)] : "",
                          own.name, "", own.value, own.boolean});
@@ -81,16 +80,23 @@ std::vector<FaultCount> Run::faults() const {
   return faults;
 }
 
-std::vector<std::string> Run::warnings() const { return state_->warnings; }
+std::vector<std::string> Run::warnings() const {
+  std::vector<std::string> warnings = state_->warnings;
+  for (const Lane& lane : state_->lanes) {
+    for (const std::string& warning : lane.method().warnings())
+      warnings.push_back("lane " + lane.id() + ": " + warning);
+  }
+  return warnings;
+}
 
 Json Run::design() const {
   Json design = Json::object();
   for (const Lane& lane : state_->lanes) {
     Json mine = lane.method().design();
-    int channels = state_->sensors.front()->size();
+    int channels = state_->world.sensors.front()->size();
     if (lane.outputs().front() == "fused") {  // one innovation of every sensor
       channels = 0;
-      for (const auto& sensor : state_->sensors) channels += sensor->size();
+      for (const auto& sensor : state_->world.sensors) channels += sensor->size();
     }
     mine.update(lane.score().bounds(channels));
     design[lane.id()] = std::move(mine);
@@ -102,7 +108,7 @@ Json Run::world() const {
   const State& s = *state_;
   Json world{{"nodes", Json::array()}, {"links", Json::array()}, {"lanes", Json::array()}, {"state", Json::array()}};
   for (std::size_t i = 0; i < s.nodes.size(); ++i) {
-    const auto place = s.sensors[i]->position();
+    const auto place = s.world.sensors[i]->position();
     world["nodes"].push_back(
         {{"id", s.nodes[i]}, {"position", place ? Json{(*place)[0], (*place)[1]} : Json(nullptr)}});
   }
@@ -113,7 +119,7 @@ Json Run::world() const {
   }
   for (const Lane& lane : s.lanes)
     world["lanes"].push_back({{"id", lane.id()}, {"method", lane.method_id()}, {"adversary", !lane.spared()}});
-  for (const Component& c : s.plant->state()) world["state"].push_back({{"name", c.name}, {"unit", c.unit}});
+  for (const Component& c : s.world.plant->state()) world["state"].push_back({{"name", c.name}, {"unit", c.unit}});
   return world;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/linalg/covariance.hpp"
 #include "engine/linalg/small.hpp"
 #include "engine/run/recorded_lane.hpp"
+#include "engine/run/sensor_signals.hpp"
 #include "engine/run/state.hpp"
 
 namespace vigil {
@@ -57,6 +58,9 @@ ScoreWindow read_window(const Json& given) {
 ScoreRules read_rules(const Json& metrics, const Plant& plant) {
   ScoreRules rules;
   rules.window = read_window(metrics.value("window", Json::object()));
+  const Json detection = metrics.value("detection", Json::object()), state = metrics.value("state", Json::object());
+  rules.detection_from = detection.value("from", rules.detection_from);
+  rules.state_from = state.value("from", rules.state_from);
   const Json figures = metrics.value("mse", Json::object());
   for (const auto& [name, figure] : figures.items()) {
     const auto component = figure.at("component").get<std::string>();
@@ -103,12 +107,12 @@ Run::State::State(const Scenario& given, RunOptions options)
   if (trace) check_trace(document);
   set_world(document);
   find_columns();
-  std::vector<std::vector<std::string>> channels;
-  for (const auto& sensor : sensors) {
-    channels.emplace_back();
-    for (const Component& channel : sensor->channels()) channels.back().push_back(channel.name);
+  std::vector<std::vector<std::string>> names;
+  for (const auto& sensor : world.sensors) {
+    names.emplace_back();
+    for (const Component& channel : sensor->channels()) names.back().push_back(channel.name);
   }
-  adversary = Adversary(document.value("adversary", Json::object()), base, nodes, channels, seed, plant->states());
+  adversary = Adversary(document.value("adversary", Json::object()), base, nodes, names, seed, world.plant->states());
   set_lanes(document);
   if (trace) set_recorded_lanes();
   declare_signals();
@@ -116,11 +120,31 @@ Run::State::State(const Scenario& given, RunOptions options)
 
 void Run::State::set_world(const Json& document) {
   const auto& plant_entry = entry_of<PlantMake>(document["plant"]["type"].get<std::string>(), "/plant/type");
-  plant = under("/plant/params", [&] { return plant_entry.make(Params(document["plant"]["params"]), dt); });
-  const int n = plant->states();
+  world.plant = under("/plant/params", [&] { return plant_entry.make(Params(document["plant"]["params"]), dt); });
+  const int n = world.plant->states();
   if (n > kMaxSmall)
     throw InputError("/plant", fmt::format("the plant has {} states; at most {} are supported", n, kMaxSmall));
+  const Json& controller = document["controller"];
+  if (controller["type"] != "none") {
+    const auto& entry = entry_of<ControllerMake>(controller["type"].get<std::string>(), "/controller/type");
+    world.controller =
+        under("/controller/params", [&] { return entry.make(Params(controller["params"]), *world.plant); });
+  }
+  set_nodes(document);
+  set_noise(document);
+  base = read_network(document["network"], nodes, positions);
+  graph = base;
+  base_of.resize(base.links().size());
+  for (std::size_t l = 0; l < base_of.size(); ++l) base_of[l] = static_cast<int>(l);
+  if (!base.connected() && !base.links().empty())
+    warnings.emplace_back("the network is not connected: its parts never hear of each other");
+  effects.resize(n, static_cast<int>(base.links().size()));
+  sensor_effects.resize(channel_counts(world.sensors));
+  shared = Course(world);
+  channels = SensorChannels(world.sensors, last_tick);
+}
 
+void Run::State::set_nodes(const Json& document) {
   const Json& node_documents = document["nodes"];
   positions = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(node_documents.size()));
   for (const auto& [id, node] : node_documents.items()) {
@@ -133,41 +157,42 @@ void Run::State::set_world(const Json& document) {
       if (x >= 0 && y >= 0) params["position"] = {trace->at(0, x), trace->at(0, y)};
     }
     const auto& entry = entry_of<SensorMake>(sensor["type"].get<std::string>(), pointer + "/type");
-    auto made = under(pointer + "/params", [&] { return entry.make(Params(params), *plant); });
-    check_covariance(made->noise(), pointer + "/params/R", Definiteness::definite);
+    auto made = under(pointer + "/params", [&] { return entry.make(Params(params), *world.plant); });
+    check_covariance(made->noise(), pointer + "/params/R",
+                     made->may_be_exact() ? Definiteness::semidefinite : Definiteness::definite);
     if (made->size() > kMaxSmall) throw InputError(pointer, fmt::format("a sensor has at most {} channels", kMaxSmall));
     if (const auto place = made->position()) {
       positions.col(static_cast<Eigen::Index>(nodes.size())) = *place;
       placed = true;
     }
-    R_root.push_back(symmetric_root(made->noise()));
-    sensor_noise.emplace_back(seed, "sensor." + id);
-    readings.emplace_back(Eigen::VectorXd::Constant(made->size(), kMissing));
-    sensors.push_back(std::move(made));
+    world.sensors.push_back(std::move(made));
     nodes.push_back(id);
   }
-  base = read_network(document["network"], nodes, positions);
-  graph = base;
-  base_of.resize(base.links().size());
-  for (std::size_t l = 0; l < base_of.size(); ++l) base_of[l] = static_cast<int>(l);
-  if (!base.connected() && !base.links().empty())
-    warnings.emplace_back("the network is not connected: its parts never hear of each other");
-  effects.resize(n, static_cast<int>(base.links().size()));
-  const std::vector<int> sizes = channel_counts(sensors);
-  sensor_effects.resize(sizes);
-  no_sensor_effects.resize(sizes);
-  received = readings;
-  process_noise = Draws(seed, "plant");
-  input = Eigen::VectorXd::Constant(plant->inputs(), kMissing);
-  noise = Eigen::VectorXd::Zero(n);
-  next_truth = Eigen::VectorXd::Zero(n);
+}
+
+/// The random and the bounded part of every noise, by the laws of the document.
+void Run::State::set_noise(const Json& document) {
+  const Json& noise = document["noise"];
+  const int n = world.plant->states();
+  const Law law = law_of(noise.value("law", "gauss"));
+  const BoundedLaw bounded = bounded_law_of(noise.value("bounded", "uniform"));
+  world.process_noise = NoiseSource(
+      read_covariance(noise.at("Q"), n, "/noise/Q", Definiteness::semidefinite), law,
+      read_covariance(noise.value("Mw", Json(0)), n, "/noise/Mw", Definiteness::semidefinite), bounded, seed, "plant");
+  world.process = Eigen::VectorXd::Zero(n);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Sensor& sensor = *world.sensors[i];
+    world.sensor_noise.emplace_back(sensor.noise(), law, sensor.bounded_noise(), bounded, seed, "sensor." + nodes[i]);
+    world.sensing.emplace_back(Eigen::VectorXd::Zero(sensor.size()));
+  }
 }
 
 Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::MatrixXd& P0) {
-  const int n = plant->states();
+  const int n = world.plant->states();
+  Eigen::VectorXd& truth = shared.truth;
   const Json given_truth = initial.value("truth", Json(nullptr));
   truth = Eigen::VectorXd::Constant(n, trace ? kMissing : 0.0);
-  for (int c = 0; trace && c < n; ++c) truth[c] = trace->at(0, columns.truth[static_cast<std::size_t>(c)]);
+  for (int c = 0; trace && c < n; ++c) truth[c] = trace->at(0, columns.shared.truth[static_cast<std::size_t>(c)]);
   const bool recorded = trace && truth.allFinite();
   if (!given_truth.is_null() && !recorded) truth = read_vector(given_truth, n, "/initial/truth");
 
@@ -201,42 +226,63 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::
   return result;
 }
 
+/// Which plant a lane sees. A trace with readings of the lane's own takes the place of the plant it would control.
+Contender::Side Run::State::side_of(const std::string& lane, const Method& method) const {
+  if (trace) return course_columns("lane." + lane + ".").readings ? Contender::Side::recorded : Contender::Side::shared;
+  if (world.controller) return Contender::Side::closed;
+  return method.marks() || method.detects() ? Contender::Side::marked : Contender::Side::shared;
+}
+
 void Run::State::set_lanes(const Json& document) {
-  const int n = plant->states();
+  const int n = world.plant->states();
   const Json& noise_document = document["noise"];
   Knowledge knowledge;
-  knowledge.plant = plant;
+  knowledge.plant = world.plant;
   knowledge.dt = dt;
   knowledge.seed = seed;
-  knowledge.sensors = sensors;
+  knowledge.sensors = world.sensors;
   knowledge.nodes = nodes;
   knowledge.graph = graph;
   knowledge.Q = read_covariance(noise_document.at("Q"), n, "/noise/Q", Definiteness::semidefinite);
   knowledge.P0 = read_covariance(noise_document.at("P0"), n, "/noise/P0", Definiteness::semidefinite);
-  Q_root = symmetric_root(knowledge.Q);
+  knowledge.Mw = read_covariance(noise_document.value("Mw", Json(0)), n, "/noise/Mw", Definiteness::semidefinite);
   knowledge.estimates = initial_estimates(document.value("initial", Json::object()), knowledge.P0);
   const std::vector<LinkRates> published = adversary.rates(graph);
-  const ScoreRules rules = read_rules(document.value("metrics", Json::object()), *plant);
+  const ScoreRules rules = read_rules(document.value("metrics", Json::object()), *world.plant);
   for (const auto& [id, lane] : document["lanes"].items()) {
     if (!lane.value("enabled", true)) continue;
     const std::string pointer = "/lanes/" + id;
-    const bool spared = !lane.value("adversary", true);
-    knowledge.rates = spared ? std::vector<LinkRates>(published.size()) : published;
-    const std::string method = lane["method"].get<std::string>();
-    const auto& entry = entry_of<MethodMake>(method, pointer + "/method");
+    LaneOptions options;
+    options.id = id;
+    options.method_id = lane["method"].get<std::string>();
+    options.spared = !lane.value("adversary", true);
+    options.monitor = lane.value("path", "loop") == "monitor";
+    options.last = last_tick;
+    options.params = lane["params"];
+    options.rules = rules;
+    knowledge.monitor = options.monitor;
+    knowledge.rates = options.spared ? std::vector<LinkRates>(published.size()) : published;
+    const auto& entry = entry_of<MethodMake>(options.method_id, pointer + "/method");
     auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
-    lanes.emplace_back(id, method, spared, std::move(made), lane["params"], *plant, channel_counts(sensors), graph,
-                       rules);
+    options.side = side_of(id, *made);
+    lanes.emplace_back(std::move(options), std::move(made), world, graph);
   }
   if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");
+  for (const Lane& lane : lanes) {
+    if (trace) columns.lanes.push_back(course_columns("lane." + lane.id() + "."));
+  }
 }
 
 void Run::State::set_recorded_lanes() {
-  for (auto& recorded : find_recorded_lanes(trace, scenario.document()["lanes"], *plant)) {
-    std::string id = recorded.lane;
-    lanes.emplace_back(std::move(id), "recorded", true, std::move(recorded.method), Json::object(), *plant,
-                       channel_counts(sensors), graph,
-                       read_rules(scenario.document().value("metrics", Json::object()), *plant));
+  const ScoreRules rules = read_rules(scenario.document().value("metrics", Json::object()), *world.plant);
+  for (auto& recorded : find_recorded_lanes(trace, scenario.document()["lanes"], *world.plant)) {
+    LaneOptions options;
+    options.id = recorded.lane;
+    options.method_id = "recorded";
+    options.spared = true;
+    options.params = Json::object();
+    options.rules = rules;
+    lanes.emplace_back(std::move(options), std::move(recorded.method), world, graph);
   }
 }
 
@@ -248,28 +294,18 @@ void Run::State::declare_signals() {
     return catalogue.add(std::move(signal));
   };
   slots.truth = catalogue.size();
-  for (const Component& c : plant->state()) add("truth." + c.name, c.unit, SignalKind::scalar, "", "");
+  for (const Component& c : world.plant->state()) add("truth." + c.name, c.unit, SignalKind::scalar, "", "");
   slots.input = catalogue.size();
-  for (const Component& c : plant->input()) add("input." + c.name, c.unit, SignalKind::scalar, "", "");
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    Signal state{.name = "sensor." + nodes[i] + ".state", .kind = SignalKind::category, .node = nodes[i]};
-    for (int s = 0; s <= static_cast<int>(SensorState::type_r); ++s)
-      state.labels.emplace_back(s, word(static_cast<SensorState>(s)));
-    slots.sensor.push_back(catalogue.add(std::move(state)));
-    for (const Component& c : sensors[i]->channels()) {
-      for (const char* form : {"", ".sent", ".injected"}) {
-        add("sensor." + nodes[i] + "." + c.name + form, c.unit, SignalKind::scalar, nodes[i], "");
-      }
-    }
-  }
+  for (const Component& c : world.plant->input()) add("input." + c.name, c.unit, SignalKind::scalar, "", "");
+  slots.sensor = declare_sensors("", "", nodes, world, catalogue);
   for (const Link& link : base.links()) {
     const std::string id = nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
     slots.link.push_back(add("link." + id + ".state", "", SignalKind::category, "", id));
-    for (const Component& c : plant->state())
+    for (const Component& c : world.plant->state())
       add("link." + id + ".injected." + c.name, c.unit, SignalKind::scalar, "", id);
     add("link." + id + ".strength", "", SignalKind::scalar, "", id);
   }
-  for (Lane& lane : lanes) lane.declare(*plant, catalogue);
+  for (Lane& lane : lanes) lane.declare(world, nodes, catalogue);
   frame.values.assign(static_cast<std::size_t>(catalogue.size()), kMissing);
   if (last_tick && *last_tick * static_cast<std::int64_t>(nodes.size()) <= kRecordLimit) {
     for (Lane& lane : lanes) lane.record_bounds(*last_tick);

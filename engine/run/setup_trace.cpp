@@ -38,24 +38,32 @@ void Run::State::check_trace(const Json& /*document*/) {
   last_tick = last_tick ? std::min(*last_tick, end) : end;
 }
 
-void Run::State::find_columns() {
-  const auto find = [&](const std::string& name) { return trace ? trace->find(name) : -1; };
-  for (const Component& c : plant->state()) columns.truth.push_back(find("truth." + c.name));
-  for (const Component& c : plant->input()) columns.input.push_back(find("input." + c.name));
-  bool any = false;
+/// Where the columns of the shared course ("") or of a lane's own ("lane.<lane>.") stand.
+CourseColumns Run::State::course_columns(const std::string& prefix) const {
+  const auto find = [&](const std::string& name) { return trace ? trace->find(prefix + name) : -1; };
+  CourseColumns found;
+  for (const Component& c : world.plant->state()) found.truth.push_back(find("truth." + c.name));
+  for (const Component& c : world.plant->input()) found.input.push_back(find("input." + c.name));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    columns.sensor_state.push_back(find("sensor." + nodes[i] + ".state"));
-    if (columns.sensor_state.back() >= 0)
-      check_states(*trace, columns.sensor_state.back(), static_cast<int>(SensorState::type_r));
-    for (auto* group : {&columns.sensor, &columns.sent, &columns.tampered}) group->emplace_back();
-    for (const Component& c : sensors[i]->channels()) {
+    found.sensor_state.push_back(find("sensor." + nodes[i] + ".state"));
+    if (found.sensor_state.back() >= 0)
+      check_states(*trace, found.sensor_state.back(), static_cast<int>(SensorState::type_r));
+    for (auto* group : {&found.sensor, &found.sent, &found.tampered, &found.source}) group->emplace_back();
+    for (const Component& c : world.sensors[i]->channels()) {
       const std::string name = "sensor." + nodes[i] + "." + c.name;
-      columns.sensor.back().push_back(find(name));
-      columns.sent.back().push_back(find(name + ".sent"));
-      columns.tampered.back().push_back(find(name + ".injected"));
-      any = any || columns.sensor.back().back() >= 0;
+      found.sensor.back().push_back(find(name));
+      found.sent.back().push_back(find(name + ".sent"));
+      found.tampered.back().push_back(find(name + ".injected"));
+      found.source.back().push_back(find(name + ".source"));
+      found.readings = found.readings || found.sensor.back().back() >= 0;
     }
   }
+  return found;
+}
+
+void Run::State::find_columns() {
+  columns.shared = course_columns("");
+  const auto find = [&](const std::string& name) { return trace ? trace->find(name) : -1; };
   for (const Link& link : base.links()) {
     const std::string name =
         "link." + nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
@@ -63,22 +71,24 @@ void Run::State::find_columns() {
     if (columns.link_state.back() >= 0)
       check_states(*trace, columns.link_state.back(), static_cast<int>(LinkState::replay));
     columns.injected.emplace_back();
-    for (const Component& c : plant->state()) columns.injected.back().push_back(find(name + ".injected." + c.name));
+    for (const Component& c : world.plant->state())
+      columns.injected.back().push_back(find(name + ".injected." + c.name));
   }
+  const int inputs = world.plant->inputs();
   if (!trace) {
-    if (plant->inputs() > 0) {
+    if (inputs > 0 && !world.controller) {
       throw InputError("/plant/type",
                        "this plant is driven by a recorded input, so the run needs a trace (--trace FILE, or "
-                       "\"input\":{\"trace\":id})");
+                       "\"input\":{\"trace\":id}) or a controller");
     }
     return;
   }
-  if (!any)
+  if (!columns.shared.readings)
     throw InputError("/input/trace", "the trace has no column sensor.<node>.<channel> of this scenario's nodes");
-  for (std::size_t c = 0; c < columns.input.size(); ++c) {
-    if (columns.input[c] < 0)
+  for (std::size_t c = 0; c < columns.shared.input.size(); ++c) {
+    if (columns.shared.input[c] < 0)
       throw InputError("/input/trace",
-                       "the trace has no column input." + plant->input()[c].name + ", which the plant needs");
+                       "the trace has no column input." + world.plant->input()[c].name + ", which the plant needs");
   }
 }
 

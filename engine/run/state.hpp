@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/random/draws.hpp"
 #include "engine/run/adversary.hpp"
 #include "engine/run/lane.hpp"
 #include "engine/run/run.hpp"
@@ -16,19 +15,25 @@
 namespace vigil {
 
 /// Where a trace's columns stand, -1: not there.
-struct TraceColumns {
+struct CourseColumns {
   std::vector<int> truth, input;
-  std::vector<std::vector<int>> sensor, sent, tampered;  ///< node, channel: as received, honest, added by the adversary
-  std::vector<int> sensor_state;                         ///< node
-  std::vector<int> link_state;                           ///< base link
-  std::vector<std::vector<int>> injected;                ///< base link, component
+  /// node, channel: as received, honest, added by the adversary, tick played back
+  std::vector<std::vector<int>> sensor, sent, tampered, source;
+  std::vector<int> sensor_state;  ///< node
+  bool readings = false;          ///< it has some reading
+};
+struct TraceColumns {
+  CourseColumns shared;
+  std::vector<CourseColumns> lanes;        ///< by lane; of the recorded side only
+  std::vector<int> link_state;             ///< base link
+  std::vector<std::vector<int>> injected;  ///< base link, component
 };
 
 /// Ids of the world's signals.
 struct WorldSlots {
   int truth = 0, input = 0;
-  std::vector<int> sensor;  ///< one a node: state, then received, honest (.sent) and added (.injected) of each channel
-  std::vector<int> link;    ///< state, then injected components, then strength; one a base link
+  int sensor = 0;         ///< of all nodes: see sensor_signals.hpp
+  std::vector<int> link;  ///< state, then injected components, then strength; one a base link
 };
 
 /// Live values of one command for one lane or attack.
@@ -52,19 +57,13 @@ struct Run::State {
   std::optional<std::int64_t> last_tick;
   std::vector<Command> pending;  ///< by tick, then in the order they were given; applied before their tick
 
-  std::shared_ptr<const Plant> plant;
+  World world;
   std::vector<std::string> nodes;
-  std::vector<std::shared_ptr<const Sensor>> sensors;
   Eigen::Matrix2Xd positions;
   bool placed = false;       ///< some sensor has a position
   Graph base;                ///< the graph the run started with: its links are the catalogue's
   Graph graph;               ///< as it is now
   std::vector<int> base_of;  ///< link of `graph` -> link of `base`
-  Eigen::MatrixXd Q_root;
-  std::vector<Eigen::MatrixXd> R_root;
-  Draws process_noise;
-  std::vector<Draws> sensor_noise;
-
   Adversary adversary;
   std::vector<Lane> lanes;
   std::vector<std::string> warnings;
@@ -74,12 +73,10 @@ struct Run::State {
   TraceColumns columns;
 
   std::int64_t k = -1;
-  Eigen::VectorXd truth, next_truth, input, noise;
-  Readings readings;  ///< as they leave the sensors
-  Readings received;  ///< as they arrive, after the adversary
+  Course shared;  ///< truth.*: every lane's that does not control a plant of its own, and the reference
+  SensorChannels channels;
   LinkEffects effects;
   SensorEffects sensor_effects;
-  SensorEffects no_sensor_effects;  ///< what a spared lane's readings went through
   Frame frame;
 
  private:
@@ -91,11 +88,16 @@ struct Run::State {
   void check_trace(const Json& document);
   Eigen::MatrixXd initial_estimates(const Json& document, const Eigen::MatrixXd& P0);
 
-  void advance_world();
-  void sense();
+  void set_nodes(const Json& document);
+  void set_noise(const Json& document);
+  CourseColumns course_columns(const std::string& prefix) const;
+  Contender::Side side_of(const std::string& lane, const Method& method) const;
+
+  void simulate(Sink& sink);
+  void replay(Sink& sink);
+  void read_course(const CourseColumns& from, Course& course) const;
+  void read_tampering(const CourseColumns& from, Course& course, SensorEffects& effects) const;
   void override_links();
-  void override_sensors();
-  void deliver_readings();
   void publish_world();
 
   void set_params(const Json& params);

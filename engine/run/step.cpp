@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/run/sensor_signals.hpp"
 #include "engine/run/state.hpp"
 
 namespace vigil {
@@ -11,105 +12,105 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 void Run::State::step(Sink& sink) {
   ++k;
-  if (k > 0) {
+  if (k == 0) {
+    if (world.controller && !trace) world.controller->input(0, shared.truth.data(), shared.upcoming);
+    for (Lane& lane : lanes) lane.begin(world, shared.truth);
+  } else {
     while (!pending.empty() && pending.front().k <= k) {
       const Command command = pending.front();
       pending.erase(pending.begin());
       change(command, &sink);
     }
-    advance_world();
-    sense();
     effects.clear();
     sensor_effects.clear();
-    adversary.act(k, effects, sensor_effects, sink);
-    if (trace) override_links();
-    deliver_readings();
-    if (trace) override_sensors();
-    for (Lane& lane : lanes) lane.tick(k, graph, base_of, effects, input, lane.spared() ? readings : received);
+    trace ? replay(sink) : simulate(sink);
+  }
+  const Tick tick{k, world, shared, graph, base_of, effects, sensor_effects};
+  for (Lane& lane : lanes) {
+    if (k > 0) lane.tick(tick);
   }
   std::fill(frame.values.begin(), frame.values.end(), kMissing);
   frame.k = k;
   frame.t = static_cast<double>(k) * dt;
   publish_world();
   for (Lane& lane : lanes) {
-    lane.publish(k, truth, lane.spared() ? no_sensor_effects : sensor_effects, *plant, frame.values);
-    lane.faults().mark_edges(lane.id(), lane.outputs(), sink);
+    lane.publish(tick, frame.values);
+    lane.mark_edges(k, sink);
   }
   // A plant may overflow (a document can ask for 1e300): a frame says that as missing, never as infinity.
   for (double& value : frame.values) value = std::isfinite(value) ? value : kMissing;
   sink.frame(frame);
 }
 
-void Run::State::advance_world() {
-  if (trace) {
-    for (std::size_t c = 0; c < columns.input.size(); ++c) {
-      const double value = trace->at(k, columns.input[c]);
-      if (std::isfinite(value))
-        input[static_cast<Eigen::Index>(c)] = value;  // a missing input holds the last one, or is none
-      if (!std::isfinite(input[static_cast<Eigen::Index>(c)])) input[static_cast<Eigen::Index>(c)] = 0;
-    }
-    for (Eigen::Index c = 0; c < truth.size(); ++c) {
-      const int column = columns.truth[static_cast<std::size_t>(c)];
-      truth[c] = column < 0 ? kMissing : trace->at(k, column);
-    }
-    return;
-  }
-  process_noise.normals(k, noise);
-  plant->advance(truth, input, next_truth);
-  truth = next_truth;
-  truth.noalias() += Q_root * noise;
+/// Steps 1 to 3 of what lanes share. A controlled reference follows its own truth.
+void Run::State::simulate(Sink& sink) {
+  world.draw(k);
+  shared.advance(world);
+  if (world.controller) world.controller->input(k, shared.truth.data(), shared.upcoming);
+  shared.sense(world);
+  shared.sent = shared.readings;
+  adversary.act(k, effects, sensor_effects, sink);
+  channels.carry(k, shared.sent, sensor_effects, shared.received);
 }
 
-void Run::State::sense() {
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    Eigen::VectorXd& z = readings[i];
-    if (trace) {
-      for (Eigen::Index c = 0; c < z.size(); ++c) {
-        const int column = columns.sensor[i][static_cast<std::size_t>(c)];
-        z[c] = column < 0 ? kMissing : trace->at(k, column);
-      }
-      continue;
-    }
-    sensors[i]->measure(truth, z);
-    for (Eigen::Index r = 0; r < z.size(); ++r) {
-      for (Eigen::Index c = 0; c < z.size(); ++c)
-        z[r] += R_root[i](r, c) * sensor_noise[i].normal(k, static_cast<std::uint32_t>(c));
-    }
+/// The same from a trace. Channels that it describes bypass the adversary; elsewhere the adversary acts.
+void Run::State::replay(Sink& sink) {
+  read_course(columns.shared, shared);
+  adversary.act(k, effects, sensor_effects, sink);
+  override_links();
+  channels.carry(k, shared.sent, sensor_effects, shared.received);
+  read_tampering(columns.shared, shared, sensor_effects);
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    if (l >= columns.lanes.size() || !columns.lanes[l].readings) continue;
+    Course& course = lanes[l].contender().course();
+    SensorEffects& own = lanes[l].recorded_effects();
+    own.clear();
+    read_course(columns.lanes[l], course);
+    course.received = course.sent;
+    read_tampering(columns.lanes[l], course, own);
   }
 }
 
-/// What arrives: the adversary adds, and angles are wrapped after that.
-void Run::State::deliver_readings() {
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    received[i] = readings[i];
-    if (sensor_effects.state[i] == SensorState::clean) continue;
-    for (Eigen::Index c = 0; c < received[i].size(); ++c) {
-      const double period = sensors[i]->channels()[static_cast<std::size_t>(c)].period;
-      received[i][c] = wrap(readings[i][c] + sensor_effects.injected[i][c], period);
-    }
-  }
-}
-
-/// A sensor whose `injected` or `state` columns the trace has bypasses the adversary: the reading is there as received,
-/// and beside it the honest one.
-void Run::State::override_sensors() {
+void Run::State::read_course(const CourseColumns& from, Course& course) const {
   const auto read = [&](int column) { return column < 0 ? kMissing : trace->at(k, column); };
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    bool described = columns.sensor_state[i] >= 0;
-    for (const int column : columns.tampered[i]) described = described || column >= 0;
+  for (std::size_t c = 0; c < from.input.size(); ++c) {
+    double& held = course.input[static_cast<Eigen::Index>(c)];
+    const double value = read(from.input[c]);
+    if (std::isfinite(value)) held = value;  // a missing input holds the last one, or is none
+    if (!std::isfinite(held)) held = 0;
+  }
+  for (Eigen::Index c = 0; c < course.truth.size(); ++c)
+    course.truth[c] = read(from.truth[static_cast<std::size_t>(c)]);
+  for (std::size_t i = 0; i < course.sent.size(); ++i) {
+    for (Eigen::Index c = 0; c < course.sent[i].size(); ++c)
+      course.sent[i][c] = read(from.sensor[i][static_cast<std::size_t>(c)]);
+  }
+}
+
+/// A sensor whose `injected`, `source` or `state` columns the trace has bypasses the adversary: the reading is there as
+/// received, and beside it the honest one.
+void Run::State::read_tampering(const CourseColumns& from, Course& course, SensorEffects& tampering) const {
+  const auto read = [&](int column) { return column < 0 ? kMissing : trace->at(k, column); };
+  for (std::size_t i = 0; i < course.sent.size(); ++i) {
+    bool described = from.sensor_state[i] >= 0, added = false;
+    for (const int column : from.tampered[i]) described = described || column >= 0;
+    for (const int column : from.source[i]) described = described || column >= 0;
     if (!described) continue;
-    bool tampered = false;
-    for (Eigen::Index c = 0; c < readings[i].size(); ++c) {
+    tampering.playback[i] = {};
+    for (Eigen::Index c = 0; c < course.sent[i].size(); ++c) {
       const auto channel = static_cast<std::size_t>(c);
-      const double added = read(columns.tampered[i][channel]), honest = read(columns.sent[i][channel]);
-      received[i][c] = read(columns.sensor[i][channel]);
-      readings[i][c] = std::isfinite(honest) ? honest : received[i][c];
-      sensor_effects.injected[i][c] = std::isfinite(added) ? added : 0;
-      tampered = tampered || sensor_effects.injected[i][c] != 0;
+      const double injected = read(from.tampered[i][channel]), honest = read(from.sent[i][channel]);
+      const double source = read(from.source[i][channel]);
+      course.received[i][c] = read(from.sensor[i][channel]);
+      course.sent[i][c] = std::isfinite(honest) ? honest : course.received[i][c];
+      tampering.injected[i][c] = std::isfinite(injected) ? injected : 0;
+      added = added || tampering.injected[i][c] != 0;
+      if (std::isfinite(source)) tampering.playback[i].source = static_cast<std::int64_t>(source);
     }
-    const double state = read(columns.sensor_state[i]);
-    sensor_effects.state[i] = tampered ? SensorState::fdi : SensorState::clean;
-    if (std::isfinite(state)) sensor_effects.state[i] = static_cast<SensorState>(static_cast<int>(state));
+    const bool played = tampering.playback[i].source >= 0;
+    tampering.state[i] = played ? SensorState::replay : (added ? SensorState::fdi : SensorState::clean);
+    const double state = read(from.sensor_state[i]);
+    if (std::isfinite(state)) tampering.state[i] = static_cast<SensorState>(static_cast<int>(state));
   }
 }
 
@@ -134,18 +135,10 @@ void Run::State::override_links() {
 
 void Run::State::publish_world() {
   auto* values = frame.values.data();
-  for (Eigen::Index c = 0; c < truth.size(); ++c) values[slots.truth + c] = truth[c];
+  for (Eigen::Index c = 0; c < shared.truth.size(); ++c) values[slots.truth + c] = shared.truth[c];
   if (k == 0) return;
-  for (Eigen::Index c = 0; c < input.size(); ++c) values[slots.input + c] = input[c];
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    values[slots.sensor[i]] = static_cast<double>(sensor_effects.state[i]);
-    for (Eigen::Index c = 0; c < readings[i].size(); ++c) {
-      double* at = values + slots.sensor[i] + 1 + 3 * c;
-      at[0] = received[i][c];
-      if (readings[i][c] != received[i][c]) at[1] = readings[i][c];
-      at[2] = sensor_effects.injected[i][c];
-    }
-  }
+  for (Eigen::Index c = 0; c < shared.input.size(); ++c) values[slots.input + c] = shared.input[c];
+  publish_sensors(shared, sensor_effects, values + slots.sensor);
   for (std::size_t l = 0; l < slots.link.size(); ++l) {
     const int slot = slots.link[l];
     const auto link = static_cast<Eigen::Index>(l);

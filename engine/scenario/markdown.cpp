@@ -3,6 +3,7 @@
 #include "engine/adversary/attack.hpp"
 #include "engine/core/expectation.hpp"
 #include "engine/methods/method.hpp"
+#include "engine/world/controller.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
 
@@ -59,6 +60,7 @@ std::string parameters_markdown() {
   text += kind<PlantMake>("Plants", "`plant.type` and `plant.params` of a scenario.");
   text += kind<SensorMake>("Sensors", "`nodes.<id>.sensor.type` and `.params`.");
   text += kind<AttackMake>("Attacks", "`adversary.<id>.type` and `.params`; the same in an attack started by hand.");
+  text += kind<ControllerMake>("Controllers", "`controller.type` and `.params`; `none` has none.");
   text += kind<MethodMake>("Methods", "`lanes.<id>.method` and `.params`.");
   text.pop_back();
   return text;

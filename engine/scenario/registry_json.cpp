@@ -1,6 +1,8 @@
 #include "engine/adversary/attack.hpp"
 #include "engine/methods/method.hpp"
 #include "engine/scenario/scenario.hpp"
+#include "engine/world/controller.hpp"
+#include "engine/world/noise.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
 
@@ -23,20 +25,21 @@ Json kind_json() {
   return list;
 }
 
-/// Every noise of a document is normal so far; its covariances stand where the noise is declared.
 Json laws() {
-  return Json::array({entry_json("normal", {"Normal noise with the given covariance", "具有给定协方差的正态噪声"},
-                                 "noise.Q, noise.P0 and a sensor's R", Json::array())});
+  Json list = Json::array();
+  for (std::size_t i = 0; i < law_names().size(); ++i) {
+    list.push_back(entry_json(law_names()[i], law_words(static_cast<Law>(i)),
+                              "noise.law; specification of seed 003, section 3", Json::array()));
+  }
+  return list;
 }
 
 }  // namespace
 
 Json registry_json() {
-  return {{"methods", kind_json<MethodMake>()},
-          {"attacks", kind_json<AttackMake>()},
-          {"plants", kind_json<PlantMake>()},
-          {"sensors", kind_json<SensorMake>()},
-          {"laws", laws()}};
+  return {{"methods", kind_json<MethodMake>()},         {"attacks", kind_json<AttackMake>()},
+          {"plants", kind_json<PlantMake>()},           {"sensors", kind_json<SensorMake>()},
+          {"controllers", kind_json<ControllerMake>()}, {"laws", laws()}};
 }
 
 }  // namespace vigil

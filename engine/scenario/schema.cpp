@@ -5,6 +5,8 @@
 #include "engine/scenario/scenario.hpp"
 #include "engine/scenario/schema_leaf.hpp"
 #include "engine/scenario/sections.hpp"
+#include "engine/world/controller.hpp"
+#include "engine/world/noise.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
 
@@ -114,7 +116,11 @@ Json covariance(const Words& words, const char* symbol) {
 
 Json noise() {
   return leaf(object({{"Q", covariance({"Covariance of the process noise", "过程噪声协方差"}, "Q")},
-                      {"P0", covariance({"Covariance of the initial estimates", "初始估计协方差"}, "P_0")}}),
+                      {"P0", covariance({"Covariance of the initial estimates", "初始估计协方差"}, "P_0")},
+                      {"Mw", covariance({"Ellipsoid of the bounded process noise", "有界过程噪声的椭球"}, "M_w")},
+                      {"law", leaf(choice(law_names()), {"Law of the random noises", "随机噪声的分布"}, "gauss")},
+                      {"bounded", leaf(choice(bounded_law_names()),
+                                       {"How bounded noises are drawn", "有界噪声的取样方式"}, "uniform")}}),
               {"Noise", "噪声"});
 }
 
@@ -170,6 +176,10 @@ Json lane() {
   return result;
 }
 
+Json first_tick(const Words& words, int fallback) {
+  return leaf(object({{"from", leaf(tick(0, false), words, fallback)}}), words);
+}
+
 Json metrics() {
   const Json window =
       object({{"from", leaf(tick(0, false), {"First tick scored", "评分起始步"}, 0)},
@@ -203,7 +213,11 @@ Json log() {
 
 Json properties(const Json& document) {
   const Json id = {{"type", "string"}, {"pattern", "^[a-z0-9][a-z0-9-]{0,63}$"}};
-  const Json controller = object({{"type", leaf(choice({"none"}), {"Controller", "控制器"}, "none")}});
+  std::vector<std::string> controllers = Registry<ControllerMake>::ids();
+  controllers.insert(controllers.begin(), "none");
+  Json controller =
+      object({{"type", leaf(choice(controllers), {"Controller", "控制器"}, "none")}, {"params", params_slot()}});
+  controller["allOf"] = branches<ControllerMake>("controller", "type");
   return {{"vigil", leaf({{"const", 1}}, {"Version of the format", "格式版本"})},
           {"id", leaf(id, {"Id", "标识"})},
           {"title", title()},
@@ -235,6 +249,7 @@ Json Scenario::schema() const {
   Json definitions = Json::object();
   define<PlantMake>("plant", definitions);
   define<SensorMake>("sensor", definitions);
+  define<ControllerMake>("controller", definitions);
   define<AttackMake>("attack", definitions);
   define<MethodMake>("method", definitions);
   result["$defs"] = std::move(definitions);

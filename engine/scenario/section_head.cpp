@@ -95,12 +95,18 @@ Json mse(const Json& given, std::vector<Problem>& problems) {
 Json metrics(const Json& given, std::vector<Problem>& problems) {
   const Json section = member(given, "metrics");
   Fields fields(section, "/metrics", problems);
-  fields.known({"window", "mse"});
+  fields.known({"window", "mse", "detection", "state"});
   Json result = Json::object();
   if (fields.has("window")) {
     Fields ticks(fields.at("window"), "/metrics/window", problems);
     ticks.known({"from", "to"});
     result["window"] = window(ticks);
+  }
+  for (const auto& [key, fallback] : {std::pair{"detection", 50}, std::pair{"state", 20}}) {
+    if (!fields.has(key)) continue;
+    Fields start(fields.at(key), std::string("/metrics/") + key, problems);
+    start.known({"from"});
+    result[key] = {{"from", start.integer("from", fallback, 0, false)}};
   }
   if (fields.has("mse")) result["mse"] = mse(fields.at("mse"), problems);
   return result;

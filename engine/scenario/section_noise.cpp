@@ -8,6 +8,7 @@
 #include "engine/core/params.hpp"
 #include "engine/scenario/fields.hpp"
 #include "engine/scenario/sections.hpp"
+#include "engine/world/noise.hpp"
 
 namespace vigil::section {
 namespace {
@@ -15,9 +16,12 @@ namespace {
 constexpr double kRounding = 1e-9;
 
 const ParamTable& table() {
-  static const ParamTable noise(
-      std::vector<Param>{{.name = "Q", .type = ParamType::matrix, .fallback = 0, .minimum = 0},
-                         {.name = "P0", .type = ParamType::matrix, .fallback = 0, .minimum = 0}});
+  static const ParamTable noise(std::vector<Param>{
+      {.name = "Q", .type = ParamType::matrix, .fallback = 0, .minimum = 0},
+      {.name = "P0", .type = ParamType::matrix, .fallback = 0, .minimum = 0},
+      {.name = "Mw", .type = ParamType::matrix, .fallback = 0, .minimum = 0},
+      {.name = "law", .type = ParamType::text, .fallback = "gauss", .choices = law_names()},
+      {.name = "bounded", .type = ParamType::text, .fallback = "uniform", .choices = bounded_law_names()}});
   return noise;
 }
 
@@ -105,6 +109,7 @@ Json noise(const Json& given, const Json& document, int states, std::vector<Prob
   if (problems.size() > before) return result;
   const bool definite = document["family"] == "sparse";  // its regressions and information forms invert them
   for (const char* name : {"Q", "P0"}) check_covariance(name, result[name], states, definite, problems);
+  check_covariance("Mw", result["Mw"], states, false, problems);
   return result;
 }
 

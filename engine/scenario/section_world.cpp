@@ -4,6 +4,7 @@
 #include "engine/scenario/fields.hpp"
 #include "engine/scenario/sections.hpp"
 #include "engine/scenario/typed.hpp"
+#include "engine/world/controller.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
 
@@ -128,8 +129,18 @@ Json plant(const Json& given, std::vector<Problem>& problems) {
 Json controller(const Json& given, std::vector<Problem>& problems) {
   const Json section = member(given, "controller", {{"type", "none"}});
   Fields fields(section, "/controller", problems);
-  fields.known({"type"});
-  return {{"type", fields.choice("type", {"none"}, "none")}};
+  if (!section.is_object() || section.value("type", Json("none")) == "none") {
+    fields.known({"type"});
+    return {{"type", "none"}};
+  }
+  fields.known({"type", "params"});
+  Json result = Json::object();
+  std::vector<std::string> kinds = Registry<ControllerMake>::ids();
+  kinds.insert(kinds.begin(), "none");
+  if (Registry<ControllerMake>::find(fields.choice("type", kinds, "none").get<std::string>()) == nullptr)
+    return {{"type", "none"}};
+  complete_typed<ControllerMake>(fields, "type", "controller", result, problems);
+  return result;
 }
 
 Json nodes(const Json& given, std::vector<Problem>& problems) {

@@ -12,12 +12,18 @@
 
 namespace vigil {
 
-/// z = h(x) + v, v ~ N(0, R). Immutable and shared.
+/// z = h(x) + v, v random with covariance R and, where there is one, a bounded part in an ellipsoid. Immutable and
+/// shared.
 class Sensor {
  public:
   virtual ~Sensor() = default;
   virtual const std::vector<Component>& channels() const = 0;
   virtual const Eigen::MatrixXd& noise() const = 0;  ///< R, channels x channels, positive definite
+  /// True where R may be singular, even zero.
+  virtual bool may_be_exact() const { return false; }
+  /// Shape of the ellipsoid of the bounded noise, channels x channels; zero: none.
+  virtual Eigen::MatrixXd bounded_noise() const { return Eigen::MatrixXd::Zero(size(), size()); }
+  virtual bool linear() const { return false; }  ///< measure() is x -> H x with a constant H
   virtual std::optional<Eigen::Vector2d> position() const {
     return std::nullopt;
   }  ///< in the plant's plane, its length unit

@@ -22,9 +22,28 @@ bool ends(std::string_view text, std::string_view tail) {
 }
 
 bool in_overview(const Signal& signal) {
-  if (!signal.lane.empty()) return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error");
+  if (!signal.lane.empty()) {
+    const std::string own = "lane." + signal.lane + ".";  // a plant of the lane's own is for those who look at the lane
+    if (starts(signal.name, own + "truth.") || starts(signal.name, own + "input.")) return false;
+    return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error");
+  }
   if (starts(signal.name, "truth.") || starts(signal.name, "input.")) return true;
   return (starts(signal.name, "link.") || starts(signal.name, "sensor.")) && ends(signal.name, ".state");
+}
+
+/// The lane's own signals, the truth, and what was really added to the sensors where the lane reconstructs it.
+std::vector<int> lane_topic(const std::string& lane, const Catalogue& catalogue) {
+  bool reconstructs = false;
+  for (const Signal& signal : catalogue.all()) {
+    reconstructs = reconstructs || (signal.lane == lane && signal.name.find(".attack.") != std::string::npos);
+  }
+  std::vector<int> ids;
+  for (const Signal& signal : catalogue.all()) {
+    const bool truth = starts(signal.name, "truth.");
+    const bool added = reconstructs && starts(signal.name, "sensor.") && ends(signal.name, ".injected");
+    if (signal.lane == lane || (signal.lane.empty() && (truth || added))) ids.push_back(signal.id);
+  }
+  return ids;
 }
 
 }  // namespace
@@ -64,12 +83,7 @@ std::vector<HubTopic> hub_topics(const Catalogue& catalogue, const Json& documen
     if (in_overview(signal)) topics.front().signals.push_back(signal.id);
   }
   for (const auto& [lane, body] : document.at("lanes").items()) {
-    HubTopic topic{"lane:" + lane, {}};
-    for (const Signal& signal : catalogue.all()) {
-      const bool truth = signal.lane.empty() && starts(signal.name, "truth.");
-      if (truth || signal.lane == lane) topic.signals.push_back(signal.id);
-    }
-    topics.push_back(std::move(topic));
+    topics.push_back({"lane:" + lane, lane_topic(lane, catalogue)});
   }
   HubTopic all{"all", {}};
   for (const Signal& signal : catalogue.all()) all.signals.push_back(signal.id);
