@@ -190,8 +190,13 @@ Json metrics() {
              Json::array({"component"}));
   const Json mse = leaf(schema::map("^mse_[a-z0-9_]{1,28}$", std::move(figure), 0, 32),
                         {"Mean square errors of single components, by name", "单个分量的均方误差，按名称"});
-  return leaf(object({{"window", leaf(window, {"Ticks that are scored", "评分区间"})}, {"mse", mse}}),
-              {"Metrics", "指标"});
+  return leaf(
+      object({{"window", leaf(window, {"Ticks that are scored", "评分区间"})},
+              {"mse", mse},
+              {"detection", first_tick({"First tick that may count as a false alarm", "可计为误报的起始步"}, 50)},
+              {"state",
+               first_tick({"First tick of rmse_state and peak_error", "rmse_state 与 peak_error 的起始步"}, 20)}}),
+      {"Metrics", "指标"});
 }
 
 Json log() {
@@ -222,7 +227,7 @@ Json properties(const Json& document) {
           {"id", leaf(id, {"Id", "标识"})},
           {"title", title()},
           {"source", leaf(text(), {"Where it comes from", "来源"}, "")},
-          {"family", leaf(choice({"consensus", "sparse"}), {"Family", "类别"}, "consensus")},
+          {"family", leaf(choice({"consensus", "sparse", "replay"}), {"Family", "类别"}, "consensus")},
           {"profile", leaf(text(), {"Profile", "参数组"}, "")},
           {"time", time()},
           {"plant", typed<PlantMake>("plant", {"Plant", "被控对象"})},

@@ -186,8 +186,18 @@ void SparseFilter::send(int node, Eigen::Ref<Eigen::VectorXd> message) const {
   message = nodes_[static_cast<std::size_t>(node)].state.mean;
 }
 
-void SparseFilter::update(const Readings& /*readings*/, std::span<const Delivery> inbox, FaultReport& /*report*/) {
-  if (!game_) return;
+void SparseFilter::update(const Readings& /*readings*/, std::span<const Delivery> inbox, FaultReport& report) {
+  if (game_) play(inbox);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Gaussian& state = nodes_[i].state;
+    if (state.mean.allFinite() && state.covariance.allFinite()) continue;
+    if (std::string* text = report.stop(static_cast<int>(i), "diverged"))
+      *text = "node " + ids_[i] + ": the filter is no longer finite";
+    return;
+  }
+}
+
+void SparseFilter::play(std::span<const Delivery> inbox) {
   for (std::size_t l = 0; l < inbox.size(); ++l) heard_[l] = inbox[l].lost ? 0 : 1;
   game_->play(tick_, E_, ready_, heard_);
   for (std::size_t i = 0; i < nodes_.size(); ++i) own_[i] = nodes_[i].state;

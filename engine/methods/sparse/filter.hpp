@@ -61,6 +61,7 @@ class SparseFilter final : public Method {
   void measure_node(std::size_t i, const Eigen::VectorXd& reading, FaultReport& report);
   bool search(std::size_t i, FaultReport& report);
   void update_node(std::size_t i, FaultReport& report);
+  void play(std::span<const Delivery> inbox);
   void publish_game(int output, std::span<double> values) const;
 
   std::shared_ptr<const Plant> plant_;

@@ -1,5 +1,6 @@
 /// The attack as whole channels, fewest first: an extension beyond the source. Specification of seed 001, section 12.
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,12 +13,13 @@ class ChannelReconstructor final : public Reconstructor {
  public:
   ChannelReconstructor(const Params& params, const WindowShape& shape)
       : shape_(shape),
+        largest_(std::min(shape.q, shape.freedom() / shape.window)),
         kappa_(params.real("kappa")),
         floor_(params.real("block_floor")),
         G_(shape.size(), shape.size()),
         b_(shape.size()),
-        best_(shape.q * shape.window) {
-    for (int size = 1; size <= shape.q; ++size) {
+        best_(largest_ * shape.window) {
+    for (int size = 1; size <= largest_; ++size) {
       const Eigen::Index entries = size * shape.window;
       fits_.push_back({Eigen::MatrixXd(entries, entries), Eigen::VectorXd(entries), Eigen::VectorXd(entries),
                        Eigen::LDLT<Eigen::MatrixXd>(entries)});
@@ -29,10 +31,10 @@ class ChannelReconstructor final : public Reconstructor {
   bool solve(const Regression& regression, Eigen::Ref<Eigen::VectorXd> E) override {
     const double eps = threshold(regression.sigma);
     E.setZero();
-    if (regression.statistic <= eps || shape_.q == 0) return true;
+    if (regression.statistic <= eps || largest_ == 0) return true;
     gram(regression, G_, b_);
     double least = 0;
-    for (int size = 1; size <= shape_.q; ++size) {
+    for (int size = 1; size <= largest_; ++size) {
       least = best_of(size, regression.statistic * regression.statistic);
       if (least <= eps * eps) break;
     }
@@ -107,6 +109,7 @@ class ChannelReconstructor final : public Reconstructor {
   }
 
   WindowShape shape_;
+  int largest_;  ///< set that is tried: more entries than p T - n cannot be told apart
   double kappa_, floor_;
   Eigen::MatrixXd G_;
   Eigen::VectorXd b_, best_;

@@ -15,5 +15,9 @@ Json consensus_literal();
 Json mrclam();
 /// Seed 001: five ground stations, one target in space, false data on range and azimuth; all nine lanes.
 Json sparse();
+/// Seed 003: two tanks under control, their output recorded and played back; noise with outliers, bounded noise, both.
+Json replay_nongaussian();
+Json replay_ubb();
+Json replay_mixed();
 
 }  // namespace vigil::presets

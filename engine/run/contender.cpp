@@ -1,0 +1,94 @@
+#include "engine/run/contender.hpp"
+
+namespace vigil {
+
+Contender::Contender(std::unique_ptr<Method> method, const World& world, const Graph& graph, Side side, bool monitor,
+                     std::optional<std::int64_t> last)
+    : method_(std::move(method)), side_(side), monitor_(monitor) {
+  if (side_ != Side::shared) course_ = Course(world);
+  if (side_ == Side::marked || side_ == Side::closed) channels_ = SensorChannels(world.sensors, last);
+  make_inbox(graph);
+}
+
+Contender::Contender(const Contender& other)
+    : method_(other.method_->clone()),
+      side_(other.side_),
+      monitor_(other.monitor_),
+      course_(other.course_),
+      channels_(other.channels_),
+      inbox_(other.inbox_),
+      outbox_(other.outbox_) {}
+
+void Contender::make_inbox(const Graph& graph) {
+  inbox_.resize(method_->message() > 0 ? graph.links().size() : 0);
+  for (Delivery& delivery : inbox_) delivery.payload = Eigen::VectorXd::Zero(method_->message());
+  outbox_ = Eigen::MatrixXd::Zero(method_->message(), graph.nodes());
+}
+
+void Contender::begin(const World& world, const Eigen::VectorXd& truth) {
+  if (side_ == Side::shared) return;
+  course_.truth = truth;
+  if (side_ == Side::closed) act(0, world);
+}
+
+void Contender::tick(const Tick& tick, bool attacked, const SensorEffects& none, FaultTable& faults) {
+  sense(tick, attacked ? tick.sensors : none);
+  const Course& seen = course(tick.shared);
+  const Readings& arrived = attacked ? seen.received : seen.sent;
+  const Readings& heard = monitor_ ? seen.sent : arrived;
+  method_->predict(seen.input, faults);
+  if (faults.stopped()) return;
+  method_->measure(heard, faults);
+  if (faults.stopped()) return;
+  if (method_->message() > 0) exchange(tick, attacked);
+  method_->update(heard, inbox_, faults);
+  if (faults.stopped()) return;
+  method_->judge(arrived, faults);
+  if (side_ == Side::closed) act(tick.k, tick.world);
+}
+
+/// Steps 1 to 3: the plant, its sensors, what leaves them, what arrives.
+void Contender::sense(const Tick& tick, const SensorEffects& effects) {
+  if (side_ == Side::shared || side_ == Side::recorded) return;
+  if (side_ == Side::closed) {
+    course_.advance(tick.world);
+    course_.sense(tick.world);
+  } else {
+    course_.truth = tick.shared.truth;
+    course_.input = tick.shared.input;
+    course_.readings = tick.shared.readings;
+  }
+  for (int i = 0; i < static_cast<int>(course_.readings.size()); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    method_->emit(i, course_.readings[node], course_.input, course_.sent[node]);
+  }
+  channels_.carry(tick.k, course_.sent, effects, course_.received);
+}
+
+void Contender::exchange(const Tick& tick, bool attacked) {
+  const Graph& graph = tick.graph;
+  for (int node = 0; node < graph.nodes(); ++node) method_->send(node, outbox_.col(node));
+  for (std::size_t l = 0; l < graph.links().size(); ++l) {
+    Delivery& delivery = inbox_[l];
+    const int place = tick.base[l];
+    const LinkState state = attacked ? tick.links.state[static_cast<std::size_t>(place)] : LinkState::clean;
+    delivery.lost = state == LinkState::dos;
+    delivery.flagged = state == LinkState::fdi;
+    delivery.payload = outbox_.col(graph.links()[l].from);
+    if (delivery.flagged) delivery.payload += tick.links.injected.col(place);  // seed 000, (6)
+  }
+}
+
+/// Step 6: the lane's own estimate drives its plant.
+void Contender::act(std::int64_t k, const World& world) {
+  const double* estimate = method_->ready() ? method_->belief(0).mean : nullptr;
+  world.controller->input(k, estimate, course_.upcoming);
+  method_->mark_input(k, course_.upcoming);
+}
+
+void Contender::rewire(const Graph& graph, const std::vector<LinkRates>& rates) {
+  method_->rewire(graph, rates);
+  if (method_->message() > 0) make_inbox(graph);
+}
+
+}  // namespace vigil

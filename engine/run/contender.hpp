@@ -1,0 +1,71 @@
+/// A method with the plant it sees: the shared one, one of its own that it controls, or one that was recorded.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/methods/method.hpp"
+#include "engine/run/course.hpp"
+#include "engine/run/fault_table.hpp"
+#include "engine/run/sensor_channels.hpp"
+
+namespace vigil {
+
+/// What a tick gives to every lane.
+struct Tick {
+  std::int64_t k = 0;
+  const World& world;
+  const Course& shared;
+  const Graph& graph;
+  std::span<const int> base;  ///< link of `graph` -> its place in `links`
+  const LinkEffects& links;
+  const SensorEffects& sensors;
+};
+
+class Contender {
+ public:
+  enum class Side {
+    shared,    ///< hears the shared readings
+    marked,    ///< sees the shared plant, but something of its own leaves its sensors
+    closed,    ///< drives a plant of its own
+    recorded,  ///< its plant, inputs and readings come from a trace, through course()
+  };
+
+  /// monitor: the estimator hears what was sent, only the detector what arrived.
+  Contender(std::unique_ptr<Method> method, const World& world, const Graph& graph, Side side, bool monitor,
+            std::optional<std::int64_t> last);
+  Contender(const Contender& other);
+  Contender(Contender&&) noexcept = default;
+
+  /// Tick 0: the truth it starts from, and its first input.
+  void begin(const World& world, const Eigen::VectorXd& truth);
+  /// Steps 1 to 6 of a tick; `attacked` false: the adversary does not touch it.
+  /// `none`: effects that do nothing. Ends early where the method stops.
+  void tick(const Tick& tick, bool attacked, const SensorEffects& none, FaultTable& faults);
+  void rewire(const Graph& graph, const std::vector<LinkRates>& rates);
+
+  Method& method() { return *method_; }
+  const Method& method() const { return *method_; }
+  Side side() const { return side_; }
+  Course& course() { return course_; }
+  /// The course it sees.
+  const Course& course(const Course& shared) const { return side_ == Side::shared ? shared : course_; }
+
+ private:
+  void sense(const Tick& tick, const SensorEffects& effects);
+  void exchange(const Tick& tick, bool attacked);
+  void act(std::int64_t k, const World& world);
+  void make_inbox(const Graph& graph);
+
+  std::unique_ptr<Method> method_;
+  Side side_;
+  bool monitor_;
+  Course course_;
+  SensorChannels channels_;
+  std::vector<Delivery> inbox_;
+  Eigen::MatrixXd outbox_;  ///< message size x nodes
+};
+
+}  // namespace vigil
