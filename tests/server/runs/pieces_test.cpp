@@ -1,7 +1,10 @@
 // The small parts of server/runs that need no server.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <set>
+#include <string>
 
 #include "engine/core/input_error.hpp"
 #include "server/api/signal_query.hpp"
@@ -63,13 +66,33 @@ TEST(Topics, OverviewLanesAndAll) {
   EXPECT_EQ(topics[1].name, "lane:consensus");
   EXPECT_EQ(topics.back().name, "all");
   EXPECT_EQ(static_cast<int>(topics.back().signals.size()), run.catalogue().size());
-  bool error = false;
-  for (const int id : topics.front().signals) {
-    const Signal& signal = run.catalogue()[id];
-    EXPECT_EQ(signal.name.find("sensor."), std::string::npos);
-    error = error || signal.name == "lane.consensus.1.error";
+  const auto names = [&](const HubTopic& topic) {
+    std::set<std::string> result;
+    for (const int id : topic.signals) result.insert(run.catalogue()[id].name);
+    return result;
+  };
+  const auto overview = names(topics.front());
+  EXPECT_TRUE(overview.contains("lane.consensus.1.error"));
+  EXPECT_TRUE(overview.contains("sensor.1.state"));
+  EXPECT_FALSE(overview.contains("sensor.1.p"));
+  EXPECT_FALSE(names(topics[1]).contains("sensor.1.p.injected"));
+}
+
+TEST(Topics, ALaneThatReconstructsComesWithWhatWasInjected) {
+  RunOrder order;
+  order.scenario = Scenario::preset("sparse");
+  const vigil::Run run = make_run(order);
+  for (const HubTopic& topic : hub_topics(run.catalogue(), order.scenario.document())) {
+    const auto carries = [&](const char* name) {
+      return std::any_of(topic.signals.begin(), topic.signals.end(),
+                         [&](int id) { return run.catalogue()[id].name == name; });
+    };
+    const bool reconstructs = topic.name == "all" || carries("lane.omp_game.1.attack.range") ||
+                              carries("lane.omp.1.attack.range") || carries("lane.l1.1.attack.range") ||
+                              carries("lane.etpg.1.attack.range") || carries("lane.omp_game_channels.1.attack.range");
+    EXPECT_EQ(carries("sensor.1.range.injected"), reconstructs) << topic.name;
+    EXPECT_EQ(carries("sensor.1.range"), topic.name == "all") << topic.name;
   }
-  EXPECT_TRUE(error);
 }
 
 TEST(SignalQuery, KeepsTheOrderAskedFor) {
