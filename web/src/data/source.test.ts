@@ -65,6 +65,26 @@ describe('where samples come from', () => {
     source.close();
   });
 
+  it('places far apart, and ways up to one of them, each asked for once however often they are drawn', async () => {
+    const fetchSamples = vi.fn(async (query: Parameters<typeof answer>[0]) => answer(query));
+    const source = new Source('1', signals, () => {}, fetchSamples);
+    source.head = 9999;
+    for (let i = 0; i < 20; i++) {
+      source.near('a', 750, 800);
+      source.near('b', 799, 800);
+      source.near('a', 9998, 9999);
+      await vi.advanceTimersByTimeAsync(100);
+    }
+    expect(fetchSamples.mock.calls.map(([query]) => [query.from, query.to]).sort()).toEqual([
+      [704, 832],
+      [9984, 9999],
+    ]);
+    expect(source.near('a', 750, 800).lo[0]).toBe(7040);
+    expect(source.near('b', 799, 800).lo[0]).toBe(7041);
+    expect(source.near('a', 9998, 9999).lo[0]).toBe(99_840);
+    source.close();
+  });
+
   it('nowhere, for a signal that there is not', () => {
     const source = new Source('1', signals, () => {}, async (query) => answer(query));
     expect(source.get('c', 0, 10).k).toHaveLength(0);

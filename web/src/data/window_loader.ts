@@ -1,4 +1,5 @@
-/// Windows of samples fetched from the log, one at a time: what several panels want of the same window goes in one call.
+/// Windows of samples fetched from the log: what several panels want of the same window goes in one call. Panels that look
+/// at different places each keep theirs: otherwise they would drive each other away, and ask for ever.
 import type { Samples } from '../api/types';
 import { emptySeries, samplesSeries, type Series } from './series';
 
@@ -7,12 +8,19 @@ export const windowPoints = 1200;
 export const signalsPerCall = 200;
 const refreshMs = 1000;
 const forgetMs = 3000;
+/** Windows kept, and wishes for more of them. */
+const most = 4;
 
 export interface Table {
   from: number;
   to: number;
   raw: boolean;
   series: Map<string, Series>;
+}
+
+interface Range {
+  from: number;
+  to: number;
 }
 
 export interface LoaderOptions {
@@ -27,11 +35,12 @@ export interface LoaderOptions {
 }
 
 export class WindowLoader {
-  table: Table | null = null;
   failure: unknown = null;
   fetchedAt = 0;
   private readonly wanted = new Map<string, number>();
-  private asked: { from: number; to: number } | null = null;
+  /** Newest first. */
+  private tables: Table[] = [];
+  private wishes: Range[] = [];
   private timer: ReturnType<typeof setTimeout> | null = null;
   private loading = false;
   private readonly abort = new AbortController();
@@ -46,18 +55,23 @@ export class WindowLoader {
   /** What is there of a signal now. If it does not hold [from, to], at least up to `until`, finely enough, that is fetched. */
   get(name: string, from: number, to: number, until: number): Series {
     this.wanted.set(name, this.options.now());
-    const held = this.table?.series.get(name);
+    const having = this.tables.filter((table) => table.series.has(name));
+    const whole = having.find((table) => holds(table, from, Math.min(to, until)));
+    if (whole) return whole.series.get(name)!;
     if (to >= from) {
-      this.asked = { from, to };
-      if (!this.holds(name, from, Math.min(to, until))) this.soon(held !== undefined);
+      this.wish(from, to);
+      this.soon(having.length > 0);
     }
-    return held ?? emptySeries;
+    // Something of the window is better than nothing of it.
+    const part = having.find((table) => table.from <= to && table.to >= from) ?? having[0];
+    return part?.series.get(name) ?? emptySeries;
   }
 
-  private holds(name: string, from: number, to: number): boolean {
-    const table = this.table;
-    if (!table || !table.series.has(name) || table.from > from || table.to < to) return false;
-    return table.raw || table.to - table.from <= 2.5 * Math.max(1, to - from);
+  /** Wishes that meet are one. */
+  private wish(from: number, to: number): void {
+    const met = this.wishes.filter((wish) => wish.from <= to && wish.to >= from);
+    const wish = { from: Math.min(from, ...met.map((one) => one.from)), to: Math.max(to, ...met.map((one) => one.to)) };
+    this.wishes = [wish, ...this.wishes.filter((one) => !met.includes(one))].slice(0, most);
   }
 
   private soon(refresh: boolean): void {
@@ -70,15 +84,21 @@ export class WindowLoader {
   }
 
   private async load(): Promise<void> {
-    if (!this.asked) return;
+    const wishes = this.wishes;
+    this.wishes = [];
+    if (!wishes.length) return;
     const { now, head, widen } = this.options;
     for (const [name, at] of this.wanted) if (now() - at > forgetMs) this.wanted.delete(name);
-    const wide = widen(this.asked.from, this.asked.to);
-    const from = Math.max(0, wide.from);
-    const to = Math.min(head(), wide.to);
     this.loading = true;
+    const before = this.tables;
+    const fetched: Table[] = [];
     try {
-      this.table = await this.fetchTable([...this.wanted.keys()], from, to);
+      for (const wish of wishes) {
+        const wide = widen(wish.from, wish.to);
+        fetched.push(await this.fetchTable([...this.wanted.keys()], Math.max(0, wide.from), Math.min(head(), wide.to)));
+        this.tables = [...fetched, ...before].slice(0, most);
+        if (fetched.length < wishes.length) this.options.loaded();
+      }
       this.failure = null;
     } catch (error) {
       if (this.abort.signal.aborted) return;
@@ -87,6 +107,8 @@ export class WindowLoader {
       await new Promise((resolve) => setTimeout(resolve, refreshMs));
     }
     this.loading = false;
+    // What is still lacking is wished for again by the drawing that follows.
+    this.wishes = [];
     this.fetchedAt = now();
     this.options.loaded();
   }
@@ -104,4 +126,9 @@ export class WindowLoader {
     }
     return { from, to, raw, series };
   }
+}
+
+/** Whether a table has [from, to], finely enough. */
+function holds(table: Table, from: number, to: number): boolean {
+  return table.from <= from && table.to >= to && (table.raw || table.to - table.from <= 2.5 * Math.max(1, to - from));
 }
