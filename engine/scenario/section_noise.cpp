@@ -1,7 +1,7 @@
 /// Noise and initial values.
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "engine/core/describe.hpp"
@@ -36,8 +36,7 @@ std::string not_covariance(const Eigen::MatrixXd& matrix, bool definite) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(unit, Eigen::EigenvaluesOnly);
   const double least = solver.eigenvalues().minCoeff();
   if (!(least >= -kRounding)) return "has the negative eigenvalue " + number_text(least * scale);
-  const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(matrix.rows());
-  if (definite && !(least > rounding)) return "is not positive definite";
+  if (definite && Eigen::LLT<Eigen::MatrixXd>(unit).info() != Eigen::Success) return "is not positive definite";
   return {};
 }
 

@@ -179,5 +179,21 @@ TEST(DeadReckoning, HearsNobody) {
   EXPECT_TRUE(rig::bound(*method, 0, 2).isApprox(A * known.P0 * A.transpose() + known.Q, 1e-12));
 }
 
+// One prediction at each node, from its own initial estimate.
+TEST(DeadReckoning, MayStandAtEveryNode) {
+  Knowledge known = linear(2);
+  known.estimates << 1, -2, 3, 4;
+  auto method =
+      Registry<MethodMake>::find("dead_reckoning")->make(rig::completed("dead_reckoning", {{"at", "nodes"}}), known);
+  EXPECT_EQ(method->outputs(), known.nodes);
+  FaultTable faults;
+  Eigen::MatrixXd A(2, 2);
+  known.plant->jacobian(Eigen::Vector2d::Zero(), Eigen::VectorXd(0), A);
+  for (int k = 1; k <= 3; ++k)
+    rig::tick(*method, known, rig::readings_at(known, Eigen::Vector2d(50, 50), 1, k), rig::Links(known), faults, k);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(rig::mean(*method, i, 2).isApprox(A * A * A * known.estimates.col(i), 1e-12));
+  EXPECT_TRUE(rig::bound(*method, 1, 2).isApprox(rig::bound(*method, 0, 2), 0));
+}
+
 }  // namespace
 }  // namespace vigil
