@@ -24,6 +24,10 @@ export function readTrack(read: (signal: string) => Series, names: Names, from: 
   return { k: part(x.k), joined: part(x.joined), x: part(x.hi), y: part(y.hi), z: part(z.hi), length: end - begin };
 }
 
+/** Ways of a wider window than this come reduced to extremes, which make no way: then only the newest part is drawn. */
+export const widest = 1000;
+export const tail = 50;
+
 /** Where a way stands at its end, if that is no older than a few ticks; null while it is empty there. */
 export function endOf(track: Track, at: number): Point | null {
   const i = track.length - 1;

@@ -14,6 +14,7 @@ const en = {
   space_nobody: 'No sensor is attacked.',
   space_attacks: 'Attacked sensors: {list}.',
   space_empty: 'This run has no space: its scenario names no three position components.',
+  space_tail: 'the last {n} ticks',
   space_no_lane: 'Lane {lane} sends no position in space.',
 };
 
@@ -31,6 +32,7 @@ const zh: Translation<typeof en> = {
   space_nobody: '没有传感器受攻击。',
   space_attacks: '受攻击的传感器：{list}。',
   space_empty: '该运行没有三维空间：场景未指明三个位置分量。',
+  space_tail: '最近 {n} 步',
   space_no_lane: '{lane} 不输出三维位置。',
 };
 
