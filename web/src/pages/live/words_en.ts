@@ -33,6 +33,7 @@ export const en = {
   stop: 'Stop the run',
   // dialogs
   attack: 'Attack a link',
+  attack_sensor: 'Attack a sensor',
   fork: 'Fork here',
   fork_done: 'Run {id} starts from k = {k}',
   parameters: 'Parameters',
@@ -47,6 +48,9 @@ export const en = {
   attack_type: 'Attack',
   attack_links: 'Links',
   attack_all: 'all links',
+  attack_on: 'On',
+  attack_sensors: 'Sensors',
+  attack_all_sensors: 'all sensors',
   attack_for: 'Duration in ticks',
   attack_endless: 'until stopped',
   attack_start: 'Start the attack',
@@ -56,7 +60,8 @@ export const en = {
   attack_stop: 'Stop',
   attack_started: 'Attack {id} acts from k = {k}',
   attack_needs_links: 'Choose at least one link.',
-  attack_no_links: 'This run has no links to attack.',
+  attack_needs_sensors: 'Choose at least one sensor.',
+  attack_no_places: 'This run has neither links nor sensors to attack.',
   ended_no_change: 'The run has ended.',
   // figures
   figure_rmse_note: 'root mean square over the nodes of the position error at this tick; below it the run so far',

@@ -1,0 +1,40 @@
+/// Where an attack that is started by hand can act, and which attacks act there.
+import type { RunDetail } from '../../api/types';
+import type { RunModel } from './model';
+
+export type PlaceKind = 'link' | 'sensor';
+
+/** Attacks that act on one kind of place only. The server has the last word: it refuses with the reason. */
+const only: Readonly<Record<string, PlaceKind>> = { dos: 'link', dos_fdi: 'link', radar_fdi: 'sensor', replay: 'sensor' };
+const usual: Readonly<Record<PlaceKind, string>> = { link: 'dos_fdi', sensor: 'replay' };
+
+export function typesAt(types: readonly string[], kind: PlaceKind): string[] {
+  return types.filter((type) => (only[type] ?? kind) === kind);
+}
+
+export function placesOf(model: Pick<RunModel, 'links' | 'nodes'> | null, kind: PlaceKind): string[] {
+  if (kind === 'link') return model?.links.map((link) => link.id) ?? [];
+  return model?.nodes.flatMap((node) => (node.state === null ? [] : [node.id])) ?? [];
+}
+
+type Attacks = Record<string, { type?: unknown; on?: unknown } | null>;
+
+function actsOn(attack: Attacks[string], kind: PlaceKind): boolean {
+  return Array.isArray(attack?.on) && attack.on.some((place) => String(place).startsWith(`${kind}:`));
+}
+
+/** What the scenario's own adversary acts on; where it has none, links before sensors. */
+export function usualKind(run: Pick<RunDetail, 'document'> | null, model: Pick<RunModel, 'links' | 'nodes'> | null): PlaceKind {
+  const attacks = Object.values((run?.document?.adversary ?? {}) as Attacks);
+  const own = (['link', 'sensor'] as const).find((kind) => attacks.some((attack) => actsOn(attack, kind)));
+  if (own && placesOf(model, own).length) return own;
+  return placesOf(model, 'link').length || !placesOf(model, 'sensor').length ? 'link' : 'sensor';
+}
+
+/** The attack that the scenario makes on such places itself, else the usual one. */
+export function usualType(run: Pick<RunDetail, 'document'> | null, types: readonly string[], kind: PlaceKind): string {
+  const known = typesAt(types, kind);
+  const own = Object.values((run?.document?.adversary ?? {}) as Attacks).find((attack) => actsOn(attack, kind) && known.includes(String(attack?.type)));
+  const wanted = kind === 'link' ? usual.link : String(own?.type ?? usual[kind]);
+  return known.includes(wanted) ? wanted : (known[0] ?? '');
+}
