@@ -49,6 +49,9 @@ describe('the schedule of attacks on sensors', () => {
     ]);
     // The frame of tick 6 stands for the ticks from 2 on.
     expect(stretches(series([0, 1, 6], [0, 0, 4])).map(({ from, to }) => [from, to])).toEqual([[2, 7]]);
+    // A piece of a ring begins with a point that goes on from one outside.
+    const piece = { ...series([5, 6], [4, 4]), joined: Uint8Array.of(1, 1) };
+    expect(stretches(piece).map(({ from, to }) => [from, to])).toEqual([[5, 7]]);
     const gap = { ...series([0, 9], [4, 4]), joined: Uint8Array.of(0, 0) };
     expect(stretches(gap).map(({ from, to }) => [from, to])).toEqual([
       [0, 1],

@@ -20,7 +20,7 @@ export function stretches(series: Series): Stretch[] {
     const next = series.k[i + 1];
     // A frame that stands for several ticks reaches back to the one before it.
     const raw = series.lo === series.hi;
-    const begin = raw && series.joined[i] ? series.k[i - 1]! + 1 : from;
+    const begin = raw && i > 0 && series.joined[i] ? series.k[i - 1]! + 1 : from;
     const to = !raw && next !== undefined && series.joined[i + 1] ? next : from + 1;
     const last = result.at(-1);
     if (last && last.token === cell.token && last.to >= begin) last.to = to;
