@@ -45,7 +45,7 @@ export const panels: readonly PanelEntry[] = [
   { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && anyLane(model, (lane) => lane.bound.size)) },
   { name: 'space', component: SpacePanel, wide: [4, 2], middle: [6, 1], narrow: 360, applies: (run) => !!run.view.space },
   { name: 'component-errors', component: ComponentErrorsPanel, wide: [4, 2], middle: [6, 1], narrow: 400, applies: (run) => !!run.view.errors?.length },
-  { name: 'table2', component: Table2Panel, wide: [4, 2], middle: [12, 1], narrow: 480, applies: (run) => hasTable(run) },
+  { name: 'table2', component: Table2Panel, wide: [4, 2], middle: [12, 1], narrow: 560, applies: (run) => hasTable(run) },
   { name: 'fusion', component: FusionPanel, wide: [12, 1], middle: [12, 1], narrow: 300, applies: (_, model) => gameOf(model, null) !== null },
   { name: 'strategy', component: StrategyPanel, wide: [5, 1], middle: [6, 1], narrow: 270, applies: (_, model) => gameOf(model, null) !== null },
   { name: 'reconstruction', component: ReconstructionPanel, wide: [7, 2], middle: [6, 2], narrow: 500, applies: (_, model) => reconstructionOf(model, null) !== null },
@@ -67,7 +67,7 @@ export interface Rows {
 
 const usualRows: Rows = { wide: [29, 47, 29], middle: [320, 320, 260] };
 const familyRows: Record<string, Rows> = {
-  sparse: { wide: [1, 1, 1], middle: [400, 420, 300] },
+  sparse: { wide: [1, 1, 1], middle: [400, 460, 300] },
 };
 
 export function rowsOf(run: RunDetail): Rows {
