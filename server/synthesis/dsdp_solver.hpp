@@ -1,0 +1,16 @@
+/// DSDP 5.8 behind the engine's interface: a dual-scaling method whose iterates stay feasible, so that a stop short
+/// still leaves something to certify. Specification (observer), section 6.
+#pragma once
+
+#include "engine/linalg/sdp.hpp"
+
+namespace vigil {
+
+/// Solves in the calling thread. The limit is looked at once an iteration; one iteration cannot be cut short.
+class DsdpSolver : public SdpSolver {
+ public:
+  std::string_view name() const override { return "DSDP"; }
+  SdpSolution solve(const SdpProblem& problem, double limit) override;
+};
+
+}  // namespace vigil
