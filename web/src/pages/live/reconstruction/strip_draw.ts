@@ -27,20 +27,22 @@ export function stripBoxes(g: Geometry, count: number): Box[] {
   return Array.from({ length: count }, (_, i) => ({ y: g.top + i * each + between / 2, height: Math.max(8, each - between) }));
 }
 
-/** Holds both curves and zero. */
-export function stripScale({ injected, found }: Strip, from: number, to: number): Scale {
+/** Holds both curves and zero; null where there is nothing but zero. */
+export function stripScale({ injected, found }: Strip, from: number, to: number): Scale | null {
   const values = extent([injected, found], from, to, false);
-  if (!values || (values.lo === 0 && values.hi === 0)) return { log: false, lo: -1, hi: 1 };
+  if (!values || (values.lo === 0 && values.hi === 0)) return null;
   return fit({ lo: Math.min(0, values.lo), hi: Math.max(0, values.hi) }, false);
 }
 
-export function drawStripAxes(context: CanvasRenderingContext2D, g: Geometry, boxes: readonly Box[], scales: readonly Scale[], quiet: readonly boolean[]): void {
+const zero: Scale = { log: false, lo: -1, hi: 1 };
+
+export function drawStripAxes(context: CanvasRenderingContext2D, g: Geometry, boxes: readonly Box[], scales: readonly (Scale | null)[]): void {
   context.font = axisFont;
   context.textAlign = 'right';
   context.textBaseline = 'middle';
   context.lineWidth = 1;
   boxes.forEach((box, i) => {
-    const scale = scales[i]!;
+    const scale = scales[i] ?? zero;
     const at = (value: number): number => Math.round(box.y + box.height * (1 - fraction(scale, value))) + 0.5;
     context.strokeStyle = colour('line');
     context.beginPath();
@@ -49,15 +51,15 @@ export function drawStripAxes(context: CanvasRenderingContext2D, g: Geometry, bo
     context.stroke();
     context.fillStyle = colour('muted');
     const inside = (value: number): number => Math.min(Math.max(at(value), box.y + 5), box.y + box.height - 4);
-    const ends = quiet[i] ? [] : [scale.lo, scale.hi].filter((value) => value !== 0);
+    const ends = scale === zero ? [] : [scale.lo, scale.hi].filter((value) => value !== 0);
     // Zero gives way to an end that would lie on it.
     const free = ends.every((value) => Math.abs(inside(value) - inside(0)) >= 11);
     for (const value of [...ends, ...(free ? [0] : [])]) context.fillText(tickLabel(value), g.left - 6, inside(value));
   });
 }
 
-export function drawStrip(context: CanvasRenderingContext2D, g: Geometry, box: Box, scale: Scale, strip: Strip, token: string): void {
-  const y = (value: number): number => box.y + box.height * (1 - fraction(scale, value));
+export function drawStrip(context: CanvasRenderingContext2D, g: Geometry, box: Box, scale: Scale | null, strip: Strip, token: string): void {
+  const y = (value: number): number => box.y + box.height * (1 - fraction(scale ?? zero, value));
   const buckets = Math.ceil(plotWidth(g));
   context.lineWidth = 1.4;
   context.strokeStyle = colour(token);
