@@ -48,6 +48,8 @@ export type Pace = 'max' | number;
 export interface RunItem {
   id: string;
   scenario: string;
+  /** Equal for runs of the same document, whatever their seed. */
+  document_hash?: string;
   family: string;
   title: Localised;
   state: RunState;
@@ -73,6 +75,8 @@ export interface RunItem {
   error: string | null;
   reproducible: boolean;
   log: { gaps: number };
+  /** Commands that it took while it ran. */
+  changes?: number;
 }
 
 export interface RunDetail extends RunItem {
@@ -97,6 +101,8 @@ export interface ViewHints {
   errors?: string[];
   lane?: string;
   error_unit?: string;
+  /** What the run is about are detectors. */
+  detector?: boolean;
 }
 
 export type SignalKind = 'scalar' | 'bool' | 'category';
