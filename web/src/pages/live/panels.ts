@@ -2,6 +2,14 @@
 import type { Component } from 'svelte';
 import type { RunDetail } from '../../api/types';
 import BoundPanel from './BoundPanel.svelte';
+import DensityPanel from './density/DensityPanel.svelte';
+import DetectorPanel from './detector/DetectorPanel.svelte';
+import { aboutDetectors, detectorsOf } from './detector/detectors';
+import EstimatesPanel from './ellipsoid/EstimatesPanel.svelte';
+import ProfilePanel from './profile/ProfilePanel.svelte';
+import RatesPanel from './rates/RatesPanel.svelte';
+import TrialsPanel from './trials/TrialsPanel.svelte';
+import WhatIfPanel from './whatif/WhatIfPanel.svelte';
 import ComponentErrorsPanel from './component_errors/ComponentErrorsPanel.svelte';
 import ErrorPanel from './ErrorPanel.svelte';
 import EventsPanel from './EventsPanel.svelte';
@@ -35,21 +43,29 @@ export interface PanelEntry {
 }
 
 const consensus = (run: RunDetail): boolean => run.family === 'consensus';
+const detects = (run: RunDetail, model: RunModel): boolean => aboutDetectors(run) && detectorsOf(model, null).length > 0;
 const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
 
 export const panels: readonly PanelEntry[] = [
+  { name: 'detector', component: DetectorPanel, wide: [8, 2], middle: [12, 1], narrow: 480, applies: detects },
+  { name: 'whatif', component: WhatIfPanel, wide: [4, 1], middle: [6, 1], narrow: 280, applies: detects },
+  { name: 'profile', component: ProfilePanel, wide: [4, 1], middle: [6, 1], narrow: 330, applies: (run) => aboutDetectors(run) },
+  { name: 'rates', component: RatesPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: detects },
   { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: (run, model) => consensus(run) || (!!model.plane && !run.view.space) },
-  { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
+  { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
   { name: 'raster', component: RasterPanel, wide: [7, 1], middle: [6, 1], narrow: 340, applies: (run) => consensus(run) },
   { name: 'feasible', component: FeasiblePanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || anyLane(model, (lane) => lane.feasible28.size) },
-  { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && anyLane(model, (lane) => lane.bound.size)) },
+  { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && anyLane(model, (lane) => lane.bound.size)) },
+  { name: 'estimates', component: EstimatesPanel, wide: [6, 2], middle: [12, 1], narrow: 560, applies: (run) => aboutDetectors(run) },
+  { name: 'density', component: DensityPanel, wide: [6, 2], middle: [12, 1], narrow: 720, applies: (run) => aboutDetectors(run) },
+  { name: 'trials', component: TrialsPanel, wide: [8, 1], middle: [12, 1], narrow: 460, applies: detects },
   { name: 'space', component: SpacePanel, wide: [4, 2], middle: [6, 1], narrow: 360, applies: (run) => !!run.view.space },
   { name: 'component-errors', component: ComponentErrorsPanel, wide: [4, 2], middle: [6, 1], narrow: 400, applies: (run) => !!run.view.errors?.length },
   { name: 'table2', component: Table2Panel, wide: [4, 2], middle: [12, 1], narrow: 560, applies: (run) => hasTable(run) },
   { name: 'fusion', component: FusionPanel, wide: [12, 1], middle: [12, 1], narrow: 300, applies: (_, model) => gameOf(model, null) !== null },
   { name: 'strategy', component: StrategyPanel, wide: [5, 1], middle: [6, 1], narrow: 270, applies: (_, model) => gameOf(model, null) !== null },
   { name: 'reconstruction', component: ReconstructionPanel, wide: [7, 2], middle: [6, 2], narrow: 500, applies: (_, model) => reconstructionOf(model, null) !== null },
-  { name: 'schedule', component: SchedulePanel, wide: [5, 1], middle: [6, 1], narrow: 220, applies: (run, model) => sensorsAttacked(run) && stationsOf(model).length > 0 },
+  { name: 'schedule', component: SchedulePanel, wide: [5, 1], middle: [6, 1], narrow: 220, applies: (run, model) => sensorsAttacked(run) && !aboutDetectors(run) && stationsOf(model).length > 0 },
   { name: 'verdict', component: VerdictPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: (run, model) => reportOf(run, model, null) !== null },
   { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true },
 ];

@@ -1,0 +1,53 @@
+import { dictionary, type Translation } from '../../../i18n/i18n.svelte';
+
+const en = {
+  title: 'Runs in this log',
+  note: 'running mean of accuracy over finished runs of this very scenario',
+  empty: 'This server does not tell which runs are of the same scenario.',
+  none: 'This log has no finished run of this scenario yet.',
+  count: '{n} runs, one a seed',
+  count_one: '1 run: a mean needs more',
+  more: 'Run {n} more seeds',
+  more_why: 'Starts {n} runs of this scenario at full speed, with seeds that the log does not have yet.',
+  started: '{n} of {all} runs are finished',
+  reload: 'Read again',
+  most: 'the newest {n}',
+  caption: 'Means over the runs in this log, with their standard errors',
+  label: 'Running mean of accuracy over {n} runs in this log, a line a lane; dashed grey: always “no attack”',
+  lane: 'lane',
+  accuracy: 'accuracy',
+  tpr: 'TPR',
+  fpr: 'FPR',
+  delay: 'delay',
+  delay_why: 'Mean over the runs that have one',
+  quiet: 'always “no attack”',
+  settling: 'A running mean settles by averaging alone: that it settles says nothing of quality.',
+  failed: 'The runs could not be read.',
+};
+
+const zh: Translation<typeof en> = {
+  title: '本日志中的运行',
+  note: '同一场景各已完成运行的正确率累计均值',
+  empty: '此服务器不提供哪些运行属于同一场景。',
+  none: '本日志中尚无此场景的已完成运行。',
+  count: '{n} 次运行，每个种子一次',
+  count_one: '1 次运行：求均值还需更多',
+  more: '再运行 {n} 个种子',
+  more_why: '以最快速度启动此场景的 {n} 次运行，所用种子为日志中尚没有的。',
+  started: '{all} 次运行中已完成 {n} 次',
+  reload: '重新读取',
+  most: '最新的 {n} 次',
+  caption: '本日志中各运行的均值及其标准误',
+  label: '本日志中 {n} 次运行的正确率累计均值，每种方法一条线；灰色虚线：总说“没有攻击”',
+  lane: '方法',
+  accuracy: '正确率',
+  tpr: 'TPR',
+  fpr: 'FPR',
+  delay: '延迟',
+  delay_why: '对有延迟值的运行取均值',
+  quiet: '总说“没有攻击”',
+  settling: '累计均值仅因平均就会趋稳：趋稳并不说明质量。',
+  failed: '未能读取这些运行。',
+};
+
+export const t = dictionary('trials', en, zh);
