@@ -22,7 +22,7 @@ class PatchSorter {
       } else if (key == "time") {
         time(value, pointer);
       } else if (key == "network") {
-        network(value, pointer);
+        descend("network", value, pointer);
       } else if (key == "adversary") {
         adversary(value, pointer);
       } else {
@@ -56,13 +56,6 @@ class PatchSorter {
         document_patch["time"]["steps"] = steps;
       }
     }
-  }
-
-  void network(const Json& value, const std::string& pointer) {
-    if (!live("network")) return descend("network", value, pointer);
-    Json whole = document_.at("network");
-    whole.merge_patch(value);
-    params["network"] = whole;
   }
 
   void adversary(const Json& value, const std::string& pointer) {
