@@ -4,69 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
+#include "tests/engine/methods/replay/detector_reference.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
 namespace vigil::replay {
 namespace {
 
 using Eigen::VectorXd;
-using Series = std::vector<double>;  // energies of samples 1, 2, ...
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+using reference::Judged;
+using reference::kNone;
+using reference::Series;
 
 VectorXd residual_of(double energy) { return VectorXd::Constant(1, std::sqrt(energy)); }
-
-double mean_of(const Series& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double candidate_of(const Series& values, double eta) {
-  const double mean = mean_of(values);
-  double squares = 0;
-  for (const double value : values) squares += std::pow(value - mean, 2);
-  return mean + eta * std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
-
-struct Judged {
-  Series statistic, threshold;
-  std::vector<bool> flag;
-};
-
-/// Section 5 word for word, on the whole series at once. Index i is sample i + 1.
-Judged by_the_text(const Series& energies, const DetectorSettings& set) {
-  Judged all;
-  Series xi, kept;  // all statistics; those the frozen window may hold
-  double theta = kNone, last = kNone;
-  bool flagged = false;
-  for (int i = 0; i < static_cast<int>(energies.size()); ++i) {
-    double statistic = kNone;
-    if (i + 1 >= set.window) {
-      statistic = mean_of(Series(energies.begin() + (i + 1 - set.window), energies.begin() + i + 1));
-      xi.push_back(statistic);
-      const bool frozen = set.threshold == Threshold::frozen;
-      const Series& from = frozen ? kept : xi;
-      if (static_cast<int>(from.size()) >= set.tau && !(frozen && flagged)) {
-        const double c = candidate_of(Series(from.end() - set.tau, from.end()), set.eta);
-        const double against = set.dead_band == DeadBand::held ? theta : last;
-        if (std::isnan(theta) || std::abs(c - against) >= set.iota) theta = c;
-        last = c;
-      }
-    }
-    flagged = statistic > theta;
-    if (i + 1 >= set.window && !flagged) kept.push_back(statistic);
-    all.statistic.push_back(statistic);
-    all.threshold.push_back(theta);
-    all.flag.push_back(flagged);
-  }
-  return all;
-}
 
 Judged by_the_detector(const Series& energies, const DetectorSettings& settings) {
   EnergyDetector detector(settings);
@@ -118,7 +71,7 @@ TEST(Detector, AgreesWithTheTextOnRandomSeries) {
     for (int i = 0; i < 300; ++i) {
       energies.push_back(std::pow(random.normal(), 2) * (i > 150 && i < 200 ? 4 : 1) + 0.01 * (number % 5) * i);
     }
-    const Judged expected = by_the_text(energies, settings), got = by_the_detector(energies, settings);
+    const Judged expected = reference::by_the_text(energies, settings), got = by_the_detector(energies, settings);
     expect_same(got.statistic, expected.statistic);
     expect_same(got.threshold, expected.threshold);
     EXPECT_EQ(got.flag, expected.flag);
