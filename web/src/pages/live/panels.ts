@@ -47,9 +47,9 @@ const detects = (run: RunDetail, model: RunModel): boolean => aboutDetectors(run
 const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
 
 export const panels: readonly PanelEntry[] = [
-  { name: 'detector', component: DetectorPanel, wide: [8, 2], middle: [12, 1], narrow: 480, applies: detects },
-  { name: 'whatif', component: WhatIfPanel, wide: [4, 1], middle: [6, 1], narrow: 280, applies: detects },
-  { name: 'profile', component: ProfilePanel, wide: [4, 1], middle: [6, 1], narrow: 330, applies: (run) => aboutDetectors(run) },
+  { name: 'detector', component: DetectorPanel, wide: [7, 2], middle: [12, 1], narrow: 480, applies: detects },
+  { name: 'whatif', component: WhatIfPanel, wide: [5, 1], middle: [6, 1], narrow: 280, applies: detects },
+  { name: 'profile', component: ProfilePanel, wide: [5, 1], middle: [6, 1], narrow: 330, applies: (run) => aboutDetectors(run) },
   { name: 'rates', component: RatesPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: detects },
   { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: (run, model) => consensus(run) || (!!model.plane && !run.view.space) },
   { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
@@ -58,7 +58,7 @@ export const panels: readonly PanelEntry[] = [
   { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && anyLane(model, (lane) => lane.bound.size)) },
   { name: 'estimates', component: EstimatesPanel, wide: [6, 2], middle: [12, 1], narrow: 560, applies: (run) => aboutDetectors(run) },
   { name: 'density', component: DensityPanel, wide: [6, 2], middle: [12, 1], narrow: 720, applies: (run) => aboutDetectors(run) },
-  { name: 'trials', component: TrialsPanel, wide: [8, 1], middle: [12, 1], narrow: 460, applies: detects },
+  { name: 'trials', component: TrialsPanel, wide: [12, 1], middle: [12, 1], narrow: 460, applies: detects },
   { name: 'space', component: SpacePanel, wide: [4, 2], middle: [6, 1], narrow: 360, applies: (run) => !!run.view.space },
   { name: 'component-errors', component: ComponentErrorsPanel, wide: [4, 2], middle: [6, 1], narrow: 400, applies: (run) => !!run.view.errors?.length },
   { name: 'table2', component: Table2Panel, wide: [4, 2], middle: [12, 1], narrow: 560, applies: (run) => hasTable(run) },

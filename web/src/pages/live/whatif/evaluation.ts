@@ -8,6 +8,8 @@ export interface Recorded {
   statistic: readonly number[];
   /** Above zero: attacked. */
   state: readonly number[];
+  /** What the lane itself said: above zero where it flagged. */
+  alarm: readonly number[];
 }
 
 export class Evaluation {
@@ -17,26 +19,35 @@ export class Evaluation {
   readonly flags: number[] = [];
   private readonly rule: ThresholdRule;
   private readonly score: Score;
+  private readonly own: Score;
 
   constructor(settings: RuleSettings, from: number, tail: number) {
     this.rule = new ThresholdRule(settings);
     this.score = new Score(from, tail);
+    this.own = new Score(from, tail);
   }
 
   /** Takes what the record has beyond what it took already. Tick 0 is the start: nothing was received yet. */
-  feed({ k, statistic, state }: Recorded): void {
+  feed({ k, statistic, state, alarm }: Recorded): void {
     for (let i = this.k.length; i < k.length; i++) {
       const value = statistic[i]!;
       const flagged = this.rule.judge(value);
       this.k.push(k[i]!);
       this.thresholds.push(this.rule.threshold);
       this.flags.push(Number.isNaN(value) || Number.isNaN(this.rule.threshold) ? NaN : flagged ? 1 : 0);
-      if (k[i]! > 0) this.score.note(k[i]!, state[i]! > 0, flagged);
+      if (!(k[i]! > 0)) continue;
+      this.score.note(k[i]!, state[i]! > 0, flagged);
+      this.own.note(k[i]!, state[i]! > 0, alarm[i]! > 0);
     }
   }
 
   get rates(): Rates {
     return this.score.rates;
+  }
+
+  /** Of the lane's own flags over the same ticks. */
+  get ownRates(): Rates {
+    return this.own.rates;
   }
 }
 

@@ -12,6 +12,8 @@ export interface Outcome {
   threshold: Series;
   alarm: Series;
   rates: Rates;
+  /** Of the lane's own flags over the same ticks. */
+  own: Rates;
 }
 
 export type Changes = Partial<Pick<RuleSettings, 'rule' | 'tau' | 'eta' | 'iota' | 'level'>>;
@@ -72,7 +74,7 @@ export class WhatIf {
     if (this.made?.key !== key || record.k.length < this.made.evaluation.k.length) this.made = { key, evaluation: new Evaluation(settings, counting.from, counting.tail) };
     const { evaluation } = this.made;
     evaluation.feed(record);
-    this.outcome = { lane, threshold: seriesOf(evaluation.k, evaluation.thresholds, step), alarm: seriesOf(evaluation.k, evaluation.flags, step), rates: evaluation.rates };
+    this.outcome = { lane, threshold: seriesOf(evaluation.k, evaluation.thresholds, step), alarm: seriesOf(evaluation.k, evaluation.flags, step), rates: evaluation.rates, own: evaluation.ownRates };
     loop.invalidate();
   }
 }

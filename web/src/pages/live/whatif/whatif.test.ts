@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest';
-import { Evaluation } from './evaluation';
+import { Evaluation, seriesOf } from './evaluation';
 import { longestStepFlag, ThresholdRule, type RuleSettings } from './rule';
 import { Score } from './score';
+import { changesText, kept, readChanges, within } from './whatif.svelte';
 
 const settings = (changes: Partial<RuleSettings>): RuleSettings => ({ rule: 'printed', tau: 3, eta: 1, iota: 0, deadBand: 'held', level: 1, ...changes });
 
@@ -141,13 +142,14 @@ describe('an evaluation', () => {
   const k = Array.from({ length: 60 }, (_, i) => i);
   const statistic = k.map((i) => (i < 4 ? NaN : i >= 30 && i < 40 ? 9 : 1 + (i % 3) / 10));
   const state = k.map((i) => (i >= 30 && i < 40 ? 3 : i === 0 ? NaN : 0));
+  const alarm = k.map((i) => (i < 4 ? NaN : i === 25 || i === 32 || i === 33 ? 1 : 0));
 
   it('fed piece by piece gives what the whole gives', () => {
     const make = (): Evaluation => new Evaluation(settings({ rule: 'frozen', tau: 10, eta: 3 }), 20, 4);
     const whole = make();
-    whole.feed({ k, statistic, state });
+    whole.feed({ k, statistic, state, alarm });
     const pieces = make();
-    for (const end of [1, 7, 7, 33, 60]) pieces.feed({ k: k.slice(0, end), statistic: statistic.slice(0, end), state: state.slice(0, end) });
+    for (const end of [1, 7, 7, 33, 60]) pieces.feed({ k: k.slice(0, end), statistic: statistic.slice(0, end), state: state.slice(0, end), alarm: alarm.slice(0, end) });
     expect(pieces.flags).toEqual(whole.flags);
     expect(pieces.thresholds).toEqual(whole.thresholds);
     expect(pieces.rates).toEqual(whole.rates);
@@ -156,12 +158,46 @@ describe('an evaluation', () => {
 
   it('knows when it cannot say, and leaves tick 0 out', () => {
     const one = new Evaluation(settings({ tau: 10 }), 20, 4);
-    one.feed({ k, statistic, state });
+    one.feed({ k, statistic, state, alarm });
     // The first statistic is at 4, the tenth at 13.
     expect(one.flags.findIndex((flag) => !Number.isNaN(flag))).toBe(13);
     const short = new Evaluation(settings({ rule: 'fixed', level: 1 }), 0, 0);
-    short.feed({ k: [0, 1], statistic: [5, 5], state: [NaN, 3] });
+    short.feed({ k: [0, 1], statistic: [5, 5], state: [NaN, 3], alarm: [NaN, 0] });
     expect(short.rates.accuracy).toBe(1);
     expect(short.rates.quiet).toBe(0);
+    expect(short.ownRates.accuracy).toBe(0);
+  });
+
+  it('scores the lane’s own flags over the same ticks', () => {
+    const one = new Evaluation(settings({}), 20, 4);
+    one.feed({ k, statistic, state, alarm });
+    // Quiet: 20 to 29 and, after a tail of four, 44 to 59.
+    expect(one.ownRates).toEqual({ tpr: 0.2, fpr: 1 / 26, accuracy: 50 / 59, delay: 2, longest: 2, quiet: 49 / 59 });
+  });
+});
+
+describe('changes in the address', () => {
+  it('are written and read, whatever somebody typed', () => {
+    expect(changesText({ rule: 'frozen', tau: 40 })).toBe('rule:frozen,tau:40');
+    expect(changesText({})).toBeNull();
+    expect(readChanges('rule:frozen,tau:40,eta:2.5')).toEqual({ rule: 'frozen', tau: 40, eta: 2.5 });
+    expect(readChanges('rule:magic,tau:0,eta:x,iota:-3,level:,constructor:1')).toEqual({ tau: 2, iota: 0 });
+    expect(readChanges(null)).toEqual({});
+    expect(kept('tau', 12.6)).toBe(13);
+  });
+});
+
+describe('the part in the window', () => {
+  it('has a point more on both sides', () => {
+    const series = seriesOf([0, 1, 2, 3, 4, 5], [0, 10, 20, 30, 40, 50]);
+    const part = within(series, 2, 3);
+    expect([...part.k]).toEqual([1, 2, 3, 4]);
+    expect([...part.hi]).toEqual([10, 20, 30, 40]);
+    expect([...within(series, -5, 99).k]).toEqual([0, 1, 2, 3, 4, 5]);
+    expect(within(seriesOf([], []), 0, 9).k).toHaveLength(0);
+  });
+  it('joins nothing over missing ticks', () => {
+    expect([...seriesOf([0, 1, 5], [1, 1, 1]).joined]).toEqual([0, 1, 0]);
+    expect([...seriesOf([0, 5, 10], [1, 1, 1], 5).joined]).toEqual([0, 1, 1]);
   });
 });

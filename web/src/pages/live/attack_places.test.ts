@@ -1,0 +1,34 @@
+import { describe, expect, it } from 'vitest';
+import type { RunDetail } from '../../api/types';
+import { placesOf, typesAt, usualKind, usualType } from './attack_places';
+
+const types = ['bias', 'dos', 'dos_fdi', 'radar_fdi', 'replay', 'of_the_future'];
+const run = (adversary: Record<string, unknown>): RunDetail => ({ document: { adversary } }) as unknown as RunDetail;
+const both = { links: [{ id: '1-2', from: '1', to: '2', state: null }], nodes: [{ id: '1', position: null, state: 'sensor.1.state' }, { id: '2', position: null, state: null }] };
+const tanks = { links: [], nodes: both.nodes };
+
+describe('places of an attack by hand', () => {
+  it('are the links and the sensors whose state the run tells', () => {
+    expect(placesOf(both, 'link')).toEqual(['1-2']);
+    expect(placesOf(both, 'sensor')).toEqual(['1']);
+    expect(placesOf(null, 'sensor')).toEqual([]);
+  });
+
+  it('take the attacks that act there, and those that nobody knows', () => {
+    expect(typesAt(types, 'link')).toEqual(['bias', 'dos', 'dos_fdi', 'of_the_future']);
+    expect(typesAt(types, 'sensor')).toEqual(['bias', 'radar_fdi', 'replay', 'of_the_future']);
+  });
+
+  it('begin with what the scenario itself attacks', () => {
+    expect(usualKind(run({ a: { type: 'dos_fdi', on: ['link:*'] } }), both)).toBe('link');
+    expect(usualKind(run({ a: { type: 'radar_fdi', on: ['sensor:1'] } }), both)).toBe('sensor');
+    expect(usualKind(run({}), both)).toBe('link');
+    expect(usualKind(run({}), tanks)).toBe('sensor');
+    expect(usualKind(run({ a: { type: 'dos', on: ['link:*'] } }), tanks)).toBe('sensor');
+    expect(usualType(run({ a: { type: 'radar_fdi', on: ['sensor:1'] } }), types, 'sensor')).toBe('radar_fdi');
+    expect(usualType(run({}), types, 'sensor')).toBe('replay');
+    expect(usualType(run({}), types, 'link')).toBe('dos_fdi');
+    expect(usualType(run({}), ['dos'], 'link')).toBe('dos');
+    expect(usualType(run({}), [], 'link')).toBe('');
+  });
+});
