@@ -10,7 +10,8 @@ namespace vigil {
 double spectral_abscissa(const Eigen::MatrixXd& A);
 
 /// Every mode of A (n x n) that does not decay (real part of at least -1e-8 of A's size) is seen through C (p x n):
-/// Hautus' test, the rank to 1e-10 of the size of A, whatever the outputs' units. False where A or C is not finite.
+/// Hautus' test, the rank to 1e-10 of the size of A, whatever the outputs' common unit. False where A or C is not
+/// finite.
 bool detectable_continuous(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C);
 
 /// The stabilising X (n x n, symmetric) of A X + X A' - X C' R^-1 C X + Q = 0: the eigenvalues of A - X C' R^-1 C have

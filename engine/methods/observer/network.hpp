@@ -53,6 +53,9 @@ struct Network {
   const Eigen::MatrixXd* coupling(int to, int from) const;
 };
 
+inline constexpr int kMaxSize =
+    50;  ///< of any dimension of a subsystem, and of their number: more has no design in time
+
 /// Why a network is refused.
 struct NetworkProblem {
   std::string matrix;  ///< "A", "C", "H_12", "kappa", …; "" for the subsystem as a whole

@@ -12,7 +12,7 @@ namespace vigil::observer {
 
 /// Truth and estimates of one subsystem at one moment.
 struct Snapshot {
-  Eigen::VectorXd x, w, f, y;        ///< truth, and what is measured
+  Eigen::VectorXd x, w, d, f, y;     ///< truth, and what is measured
   Eigen::VectorXd xhat, what, fhat;  ///< fhat is empty where the observer has none
   Eigen::VectorXd innovation;        ///< y - C xhat - G fhat
 };
@@ -23,17 +23,17 @@ class NetworkSimulation {
  public:
   /// Seed 002, (9)-(13), by gains L = [L1; L2]; observers start at zero.
   static NetworkSimulation intermediate(const Network& network, const Gains& gains);
-  /// The matched unknown-input observer; L: n x p.
+  /// The matched unknown-input observer; L: n x p. It knows no nonlinearity: for plants without one.
   static NetworkSimulation matched(const Network& network, const Gains& gains);
 
-  int size() const { return static_cast<int>(M_.rows()); }
+  int size() const { return static_cast<int>(map_.rows()); }
   /// x0: one a subsystem; observers at zero.
   Eigen::VectorXd initial(const std::vector<Eigen::VectorXd>& x0) const;
   /// The fastest pole of plant and observers, 1/s: for steps_per_tick.
   double fastest() const { return fastest_; }
 
   /// All inputs stacked: [u w d f] of subsystem 1, of 2, …
-  int inputs() const { return static_cast<int>(V_.cols()); }
+  int inputs() const { return static_cast<int>(map_.cols() - map_.rows()); }
   void read_inputs(const std::vector<SubsystemSignals>& signals, double t, double branch,
                    Eigen::Ref<Eigen::VectorXd> inputs) const;
   void derivative(const Eigen::Ref<const Eigen::VectorXd>& state, const Eigen::Ref<const Eigen::VectorXd>& inputs,
@@ -44,12 +44,25 @@ class NetworkSimulation {
   Snapshot snapshot(int subsystem, const Eigen::Ref<const Eigen::VectorXd>& state,
                     const Eigen::Ref<const Eigen::VectorXd>& inputs) const;
 
+  /// Rows over [state; inputs].
+  struct Outputs {
+    Eigen::MatrixXd x, w, d, f, y, xhat, what, fhat, innovation;
+  };
+
  private:
-  explicit NetworkSimulation(const Network& network);
+  friend class SimulationBuilder;
+  NetworkSimulation() = default;
+  void add_nonlinearities(Eigen::Ref<Eigen::VectorXd> slope);
 
   Network network_;
-  Eigen::MatrixXd M_, V_;  ///< state' = M state + V inputs + nonlinearities
+  Eigen::MatrixXd map_;         ///< state' = map [state; inputs] + nonlinearities
+  Eigen::MatrixXd arguments_;   ///< every x, then every xhat, of subsystems with a nonlinearity
+  Eigen::MatrixXd entrances_;   ///< where their Phi enter the slope
+  std::vector<int> nonlinear_;  ///< those subsystems
+  std::vector<Outputs> outputs_;
   double fastest_ = 0;
+  Eigen::VectorXd stacked_, argument_, phi_, inputs_;
+  Rk4 rk4_{0};
 };
 
 }  // namespace vigil::observer

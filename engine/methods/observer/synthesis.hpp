@@ -18,9 +18,9 @@ enum class Structure {
 
 /// Bounds and prices that make the problem well posed.
 struct SynthesisOptions {
-  double pmin = 1e-2;  ///< pmin I <= P <= pmax I
-  double pmax = 1e4;
-  double cnu = 1e-5;           ///< price of nu, L'PL <= nu I
+  double pmin = 1e-2;  ///< pmin I <= P <= pmax I; no upper bound where there is none
+  std::optional<double> pmax = 1e4;
+  double cnu = 1e-5;           ///< price of mu^2 nu, L'PL <= nu I
   double cd = 1;               ///< price of gamma_d^2
   double cw = 100;             ///< price of gamma_w^2
   std::optional<double> rmax;  ///< local poles have real parts above -rmax, 1/s
