@@ -194,24 +194,38 @@ double ratio_beyond(const Matrix& H, const Vector& z) {
 
 }  // namespace
 
-Eigen::MatrixXd reduce(const Eigen::Ref<const Eigen::MatrixXd>& H, int order) {
+Eigen::Index reduce(const Eigen::Ref<const Eigen::MatrixXd>& H, int order, Eigen::MatrixXd& reduced,
+                    std::vector<Eigen::Index>& places) {
   const auto p = H.rows();
-  if (H.cols() <= std::max<Eigen::Index>(order, p)) return H;
-  std::vector<Eigen::Index> longest(at(H.cols()));
-  std::iota(longest.begin(), longest.end(), Eigen::Index{0});
-  const Eigen::VectorXd lengths = H.colwise().norm();
-  std::stable_sort(longest.begin(), longest.end(), [&](auto a, auto b) { return lengths[a] > lengths[b]; });
+  if (H.cols() <= std::max<Eigen::Index>(order, p)) {
+    reduced.leftCols(H.cols()) = H;
+    return H.cols();
+  }
+  places.resize(at(H.cols()));
+  std::iota(places.begin(), places.end(), Eigen::Index{0});
+  std::sort(places.begin(), places.end(), [&](Eigen::Index a, Eigen::Index b) {
+    const double of_a = H.col(a).norm(), of_b = H.col(b).norm();
+    return of_a != of_b ? of_a > of_b : a < b;
+  });
   const auto kept = std::max<Eigen::Index>(order - p, 0);
-  Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(p, kept + p);
+  auto box = reduced.middleCols(kept, p);
+  box.setZero();
   for (Eigen::Index j = 0; j < H.cols(); ++j) {
-    const auto column = H.col(longest[at(j)]);
+    const auto column = H.col(places[at(j)]);
     if (j < kept) {
       reduced.col(j) = column;
     } else {
-      reduced.rightCols(p).diagonal() += column.cwiseAbs();
+      box.diagonal() += column.cwiseAbs();
     }
   }
-  return reduced;
+  return kept + p;
+}
+
+Eigen::MatrixXd reduce(const Eigen::Ref<const Eigen::MatrixXd>& H, int order) {
+  Eigen::MatrixXd reduced(H.rows(), std::max<Eigen::Index>(order, H.rows()));
+  std::vector<Eigen::Index> places;
+  const auto count = reduce(H, order, reduced, places);
+  return reduced.leftCols(count);
 }
 
 Eigen::VectorXd half_widths(const Eigen::Ref<const Eigen::MatrixXd>& H) { return H.cwiseAbs().rowwise().sum(); }

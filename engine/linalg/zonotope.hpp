@@ -3,12 +3,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace vigil {
 
 /// A zonotope of at most max(order, p) generators that contains H's. More than `order` are sorted by falling length
 /// (equal ones stay in their order), the first order - p kept and the rest replaced by the box around them.
 Eigen::MatrixXd reduce(const Eigen::Ref<const Eigen::MatrixXd>& H, int order);
+/// The same into the first columns of `reduced` (p x at least max(order, p), no part of H); returns how many. Allocates
+/// nothing where `places` has room for H's columns.
+Eigen::Index reduce(const Eigen::Ref<const Eigen::MatrixXd>& H, int order, Eigen::MatrixXd& reduced,
+                    std::vector<Eigen::Index>& places);
 
 /// Half the width along each axis: the row sums of |H|; p.
 Eigen::VectorXd half_widths(const Eigen::Ref<const Eigen::MatrixXd>& H);

@@ -7,6 +7,7 @@
 
 #include "engine/linalg/zonotope.hpp"
 #include "engine/methods/replay/watermark.hpp"
+#include "tests/engine/allocations.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
@@ -128,6 +129,24 @@ TEST(ZonotopeSchedule, NeedsAnInvertibleInnovation) {
   EXPECT_TRUE(ZonotopeSchedule::make(tank::A, tank::C, I, zero, 20));
   EXPECT_FALSE(ZonotopeSchedule::make(tank::A, MatrixXd({{1, 2}, {2, 4}}), I, zero, 20));
 }
+
+#ifdef VIGIL_COUNTS_MALLOC
+TEST(ZonotopeSchedule, AStepAllocatesNothing) {
+  RandomMatrices random(9);
+  for (const int n : {2, 6}) {
+    const MatrixXd A = 0.9 * random.orthogonal(n), M = random.definite(n);
+    auto schedule = *ZonotopeSchedule::make(A, random.gaussian(3, n), M, random.definite(3), 30);
+    bool done = true;
+    EXPECT_EQ(allocations_in([&] {
+                for (int k = 0; k < 40; ++k)
+                  done = done && (k % 5 == 3 ? schedule.advance_unheard() : schedule.advance());
+              }),
+              0);
+    EXPECT_TRUE(done);
+    EXPECT_EQ(schedule.H().cols(), 30);
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace vigil::replay
