@@ -38,13 +38,14 @@ void SensorEffects::resize(const std::vector<int>& channels) {
   injected.clear();
   for (const int size : channels) injected.emplace_back(Eigen::VectorXd::Zero(size));
   state.assign(channels.size(), SensorState::clean);
-  playback.assign(channels.size(), {});
+  playback.clear();
+  for (const int size : channels) playback.emplace_back(static_cast<std::size_t>(size));
 }
 
 void SensorEffects::clear() {
   for (Eigen::VectorXd& value : injected) value.setZero();
   std::fill(state.begin(), state.end(), SensorState::clean);
-  std::fill(playback.begin(), playback.end(), Playback{});
+  for (auto& channels : playback) std::fill(channels.begin(), channels.end(), Playback{});
 }
 
 void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, SensorState as) {
@@ -62,15 +63,19 @@ void SensorEffects::set(int node, const Eigen::Ref<const Eigen::VectorXd>& value
   state[static_cast<std::size_t>(node)] = as;
 }
 
-void SensorEffects::play(int node, const Playback& record) {
-  const auto i = static_cast<std::size_t>(node);
-  playback[i] = record;
-  state[i] = SensorState::replay;
-  if (record.channel >= 0) {
-    injected[i][record.channel] = 0;
-  } else {
-    injected[i].setZero();
+void SensorEffects::play(const SensorPlace& place, const Playback& record) {
+  const auto node = static_cast<std::size_t>(place.node);
+  state[node] = SensorState::replay;
+  for (std::size_t c = 0; c < playback[node].size(); ++c) {
+    if (place.channel >= 0 && place.channel != static_cast<int>(c)) continue;
+    playback[node][c] = record;
+    injected[node][static_cast<Eigen::Index>(c)] = 0;
   }
+}
+
+bool SensorEffects::plays(int node) const {
+  const auto& channels = playback[static_cast<std::size_t>(node)];
+  return std::any_of(channels.begin(), channels.end(), [](const Playback& one) { return one.source >= 0; });
 }
 
 }  // namespace vigil

@@ -48,22 +48,23 @@ const char* word(SensorState state);
 struct Playback {
   std::int64_t from = -1, to = -1;  ///< ticks of the record, both ends included
   std::int64_t source = -1;         ///< the tick of it that is played now; -1: nothing is
-  int channel = -1;                 ///< of the sensor; -1: the whole reading
 };
 
 /// What happens to every reading in one tick, on its way to the receivers.
 struct SensorEffects {
-  std::vector<Eigen::VectorXd> injected;  ///< one a node, zero where nothing is injected
-  std::vector<SensorState> state;         ///< one a node
-  std::vector<Playback> playback;         ///< one a node; what is injected is added to it
+  std::vector<Eigen::VectorXd> injected;        ///< one a node, zero where nothing is injected
+  std::vector<SensorState> state;               ///< one a node
+  std::vector<std::vector<Playback>> playback;  ///< node, channel; what is injected is added to it
 
   void resize(const std::vector<int>& channels);
   void clear();
   void add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, SensorState as);
   /// Replaces what earlier attacks injected at this node: for attacks of which the later start wins.
   void set(int node, const Eigen::Ref<const Eigen::VectorXd>& value, SensorState as);
-  /// Plays a record back at this node, and takes off what earlier attacks injected there.
-  void play(int node, const Playback& record);
+  /// Plays a record back at this place, and takes off what earlier attacks injected there.
+  void play(const SensorPlace& place, const Playback& record);
+  /// Some channel of the node is played back.
+  bool plays(int node) const;
 };
 
 /// What a receiver may know of a channel's statistics: the published probabilities and the bound, never a realisation.
@@ -97,6 +98,8 @@ class Attack {
   virtual void act(std::int64_t /*k*/, std::span<const int> /*links*/, LinkEffects& /*effects*/) const {}
   /// The same on sensors.
   virtual void tamper(std::int64_t /*k*/, std::span<const SensorPlace> /*places*/, SensorEffects& /*effects*/) const {}
+  /// The first tick at which it does something, where a parameter says so: attacks act in the order of their starts.
+  virtual std::int64_t start() const { return 0; }
   /// False at ticks between its first and last at which it does nothing: where it begins and ends is what people see.
   virtual bool active(std::int64_t /*k*/) const { return true; }
   /// A sentence for the mark of its begin; empty: nothing to say.

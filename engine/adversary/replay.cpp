@@ -58,12 +58,12 @@ class Replay final : public Attack {
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Replay>(*this); }
   bool acts_on(ChannelKind kind) const override { return kind == ChannelKind::sensor; }
+  std::int64_t start() const override { return schedule_.start; }
   bool active(std::int64_t k) const override { return k >= schedule_.start && (!schedule_.end || k <= *schedule_.end); }
 
   void tamper(std::int64_t k, std::span<const SensorPlace> places, SensorEffects& effects) const override {
     const std::int64_t source = schedule_.record_from + (k - schedule_.start) % length();
-    for (const SensorPlace& place : places)
-      effects.play(place.node, {schedule_.record_from, schedule_.record_to, source, place.channel});
+    for (const SensorPlace& place : places) effects.play(place, {schedule_.record_from, schedule_.record_to, source});
   }
 
   std::string remark() const override {

@@ -40,7 +40,7 @@ Adversary::Adversary(const Adversary& other)
       message_(other.message_) {
   for (const Entry& e : other.entries_) {
     entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.link_name, e.node_name, e.from,
-                        e.to, e.enabled, e.by_hand, e.acting});
+                        e.start, e.to, e.enabled, e.by_hand, e.acting});
   }
 }
 
@@ -116,7 +116,8 @@ std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, c
         place.channel >= 0 ? 1 : static_cast<int>(channels_[static_cast<std::size_t>(place.node)].size()));
   }
   auto attack = under(pointer + "/params", [&] { return kind->make(Params(complete), context); });
-  if (!entry.links.empty() && !attack->acts_on(ChannelKind::link)) {
+  const bool names_links = !entry.links.empty() || entry.sensors.empty();  // link:* of a network without any
+  if (names_links && !attack->acts_on(ChannelKind::link)) {
     throw InputError(pointer + "/on", fmt::format("\"{}\" acts on sensors, not on links", entry.type),
                      "sensor:NODE or sensor:NODE.CHANNEL");
   }
@@ -144,8 +145,9 @@ void Adversary::add(const std::string& id, const Json& document, bool by_hand, c
                      fmt::format(">= {}", entry.from));
   }
   entry.attack = make(entry, entry.params, pointer);
+  entry.start = std::max(entry.from, entry.attack->start());
   const auto later = [&](const Entry& other) {
-    return other.from != entry.from ? other.from > entry.from : other.id > entry.id;
+    return other.start != entry.start ? other.start > entry.start : other.id > entry.id;
   };
   entries_.insert(std::find_if(entries_.begin(), entries_.end(), later), std::move(entry));
 }

@@ -50,6 +50,7 @@ class Adversary {
     std::vector<SensorPlace> sensors;
     std::string link_name, node_name;  ///< for marks: "2-5" or "3"; empty where it acts on several
     std::int64_t from = 1;
+    std::int64_t start = 1;          ///< the later of `from` and what the attack itself says
     std::optional<std::int64_t> to;  ///< last tick it acts
     bool enabled = true;
     bool by_hand = false;

@@ -25,17 +25,20 @@ class SensorChannels {
   void carry(std::int64_t k, const Readings& sent, const SensorEffects& effects, Readings& arrived);
 
  private:
-  struct Channel {
-    std::shared_ptr<const Sensor> sensor;
-    Eigen::MatrixXd memory;  ///< channels x ticks, a ring by tick
-    Eigen::VectorXd good;    ///< the last finite value of each channel
-    Eigen::MatrixXd record;  ///< channels x ticks of the playback that goes on
-    std::int64_t record_from = -1, record_to = -1, played = -2;
+  struct Record {
+    Eigen::VectorXd values;
+    std::int64_t from = -1, to = -1;
   };
-  void remember(std::int64_t k, const Eigen::VectorXd& sent, Channel& channel) const;
-  void play(std::int64_t k, const Playback& playback, Channel& channel, Eigen::VectorXd& arrived) const;
+  struct Reading {
+    std::shared_ptr<const Sensor> sensor;
+    Eigen::MatrixXd memory;        ///< channels x ticks, a ring by tick
+    Eigen::VectorXd good;          ///< the last finite value of each channel
+    std::vector<Record> playback;  ///< of each channel: the one played last
+  };
+  void remember(std::int64_t k, const Eigen::VectorXd& sent, Reading& reading) const;
+  double play(std::int64_t k, const Playback& playback, Eigen::Index channel, Reading& reading) const;
 
-  std::vector<Channel> channels_;
+  std::vector<Reading> readings_;  ///< one a node
   std::int64_t length_ = 1;
 };
 

@@ -28,12 +28,12 @@ int declare_sensors(const std::string& prefix, const std::string& lane, const st
 void publish_sensors(const Course& course, const SensorEffects& effects, double* at) {
   for (std::size_t i = 0; i < course.received.size(); ++i) {
     *at++ = static_cast<double>(effects.state[i]);
-    const Playback& played = effects.playback[i];
     for (Eigen::Index c = 0; c < course.received[i].size(); ++c, at += kForms) {
       at[0] = course.received[i][c];
       if (course.sent[i][c] != course.received[i][c]) at[1] = course.sent[i][c];
       at[2] = effects.injected[i][c];
-      if (played.source >= 0 && (played.channel < 0 || played.channel == c)) at[3] = static_cast<double>(played.source);
+      const std::int64_t source = effects.playback[i][static_cast<std::size_t>(c)].source;
+      if (source >= 0) at[3] = static_cast<double>(source);
     }
   }
 }

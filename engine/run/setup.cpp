@@ -226,9 +226,11 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::
   return result;
 }
 
-/// Which plant a lane sees. A trace with readings of the lane's own takes the place of the plant it would control.
+/// Which plant a lane sees. A trace with readings of the lane's own takes the place of the plant it would control; one
+/// without drives it open loop, and what its sensors add is added to the trace's readings.
 Contender::Side Run::State::side_of(const std::string& lane, const Method& method) const {
-  if (trace) return course_columns("lane." + lane + ".").readings ? Contender::Side::recorded : Contender::Side::shared;
+  if (trace && course_columns("lane." + lane + ".").readings) return Contender::Side::recorded;
+  if (trace) return method.marks() ? Contender::Side::marked : Contender::Side::shared;
   if (world.controller) return Contender::Side::closed;
   return method.marks() || method.detects() ? Contender::Side::marked : Contender::Side::shared;
 }

@@ -60,6 +60,7 @@ void Run::State::replay(Sink& sink) {
   override_links();
   channels.carry(k, shared.sent, sensor_effects, shared.received);
   read_tampering(columns.shared, shared, sensor_effects);
+  shared.readings = shared.sent;
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     if (l >= columns.lanes.size() || !columns.lanes[l].readings) continue;
     Course& course = lanes[l].contender().course();
@@ -96,7 +97,6 @@ void Run::State::read_tampering(const CourseColumns& from, Course& course, Senso
     for (const int column : from.tampered[i]) described = described || column >= 0;
     for (const int column : from.source[i]) described = described || column >= 0;
     if (!described) continue;
-    tampering.playback[i] = {};
     for (Eigen::Index c = 0; c < course.sent[i].size(); ++c) {
       const auto channel = static_cast<std::size_t>(c);
       const double injected = read(from.tampered[i][channel]), honest = read(from.sent[i][channel]);
@@ -105,9 +105,13 @@ void Run::State::read_tampering(const CourseColumns& from, Course& course, Senso
       course.sent[i][c] = std::isfinite(honest) ? honest : course.received[i][c];
       tampering.injected[i][c] = std::isfinite(injected) ? injected : 0;
       added = added || tampering.injected[i][c] != 0;
-      if (std::isfinite(source)) tampering.playback[i].source = static_cast<std::int64_t>(source);
+      tampering.playback[i][channel] = {};
+      if (source >= 0 && source < static_cast<double>(k)) {
+        const auto tick = static_cast<std::int64_t>(source);
+        tampering.playback[i][channel] = {tick, tick, tick};
+      }
     }
-    const bool played = tampering.playback[i].source >= 0;
+    const bool played = tampering.plays(static_cast<int>(i));
     tampering.state[i] = played ? SensorState::replay : (added ? SensorState::fdi : SensorState::clean);
     const double state = read(from.sensor_state[i]);
     if (std::isfinite(state)) tampering.state[i] = static_cast<SensorState>(static_cast<int>(state));

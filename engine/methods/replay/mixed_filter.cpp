@@ -64,6 +64,7 @@ MixedFilter::MixedFilter(const Params& params, const Knowledge& knowledge)
       first_(start_.batch().error(system_.P, system_.R, system_.Mw, system_.Mv)),
       schedule_(Schedule::make(system_, update_, first_)),
       by_innovation_(params.text("residual") == "innovation"),
+      monitor_(knowledge.monitor),
       watermark_(watermark_of(params, knowledge)),
       amplitude_(params.real("amplitude")),
       sensor_key_(knowledge.seed, "watermark.sensor"),
@@ -217,14 +218,14 @@ Json MixedFilter::design() const {
   return {{"K", to_json(Eigen::MatrixXd(steady.K))},
           {"zeta", std::isfinite(steady.zeta) ? Json(steady.zeta) : Json(nullptr)},
           {"corner", word(steady.corner)},
-          {"blind", steady.corner == Corner::infinite && !by_innovation_},
+          {"blind", steady.corner == Corner::infinite && !by_innovation_ && !monitor_},
           {"longest_step_flag", longest_step_flag(detector_.settings().tau, detector_.settings().eta)}};
 }
 
 std::vector<std::string> MixedFilter::warnings() const {
   std::vector<std::string> warnings;
   const DetectorSettings& s = detector_.settings();
-  if (detector_.blind())
+  if (detector_.blind() && !monitor_)  // a monitor's residual is zero until what arrives is not what was sent
     warnings.emplace_back("residual identically zero: detector blind (the optimal gain is C^-1, whatever is replayed)");
   if (s.threshold == Threshold::printed && !can_rise(s.tau, s.eta))
     warnings.push_back(

@@ -58,7 +58,7 @@ class MixedFilter final : public Method {
   Bounds first_;  ///< Q_n, M_n
   std::shared_ptr<const Schedule> schedule_;
   bool on_schedule_ = true;
-  bool by_innovation_;
+  bool by_innovation_, monitor_;
   Watermark watermark_;
   double amplitude_;
   Draws sensor_key_, control_key_;

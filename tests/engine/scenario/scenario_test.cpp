@@ -19,7 +19,8 @@ TEST(Presets, AreValidCompleteAndStable) {
   for (const auto& id : Scenario::preset_ids()) {
     const Scenario preset = Scenario::preset(id);
     EXPECT_EQ(preset.id(), id);
-    EXPECT_EQ(preset.family(), id == "sparse" ? "sparse" : "consensus");
+    const bool named = id == "sparse" || id.starts_with("replay-");
+    EXPECT_EQ(preset.family(), named ? id.substr(0, id.find('-')) : "consensus");
     EXPECT_EQ(Scenario::from_json(preset.document()).document().dump(), preset.document().dump()) << id;
     EXPECT_EQ(Scenario::from_json(Json::parse(preset.document().dump())).document(), preset.document()) << id;
     EXPECT_NE(preset.document()["title"]["en"], preset.document()["title"]["zh"]);
@@ -37,6 +38,14 @@ TEST(Presets, HaveTheContractsLanesInOrder) {
   const std::vector<std::string> sparse{"omp_game",         "l1", "dkf", "etpg", "sdlms", "omp", "ekf", "pred",
                                         "omp_game_channels"};
   EXPECT_EQ(keys(Scenario::preset("sparse").document()["lanes"]), sparse);
+  std::vector<std::string> replay{
+      "as_written",      "innov",    "zeta1",         "zeta1_freeze", "eq29",         "eq29_freeze", "zeta1_wm",
+      "zeta1_wm_freeze", "repaired", "repaired_ctrl", "fixed_norm",   "fixed_square", "ufir"};
+  EXPECT_EQ(keys(Scenario::preset("replay-mixed").document()["lanes"]), replay);
+  replay.emplace_back("gmeekf");
+  EXPECT_EQ(keys(Scenario::preset("replay-nongaussian").document()["lanes"]), replay);
+  replay.back() = "zonotope";
+  EXPECT_EQ(keys(Scenario::preset("replay-ubb").document()["lanes"]), replay);
 }
 
 TEST(Presets, CarryTheSpecificationsNumbers) {
@@ -108,7 +117,7 @@ TEST(Document, FillsInEveryDefault) {
   EXPECT_EQ(document["title"].dump(), R"({"en":"mine","zh":"mine"})");
   EXPECT_EQ(document["time"].dump(), R"({"dt":1,"steps":null})");
   EXPECT_EQ(document["network"].dump(), R"({"graph":"none"})");
-  EXPECT_EQ(document["noise"].dump(), R"({"Q":0,"P0":0})");
+  EXPECT_EQ(document["noise"].dump(), R"({"Q":0,"P0":0,"Mw":0,"law":"gauss","bounded":"uniform"})");
   EXPECT_EQ(document["initial"].dump(), R"({"truth":null,"estimates":null,"x0_random":false})");
   EXPECT_EQ(document["log"].dump(), R"({"signals":["*"],"every":1,"keep":null,"policy":null})");
   EXPECT_EQ(document["lanes"]["l"].dump(),

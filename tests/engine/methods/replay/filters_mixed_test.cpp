@@ -81,7 +81,7 @@ TEST(MixedFilter, PassesARecordAsTheDenseFormulas) {
       expect_state(signals, *method, plain, k);
       if (testing::Test::HasFatalFailure()) return;
     }
-    EXPECT_TRUE(rig::faults_of(faults, *method).empty());
+    EXPECT_TRUE(vigil::rig::faults_of(faults, *method).empty());
   }
 }
 
@@ -118,7 +118,7 @@ TEST(MixedFilter, HoldsWhereAReadingIsMissing) {
     expect_state(signals, *method, plain, k);
     if (testing::Test::HasFatalFailure()) return;
   }
-  const auto told = rig::faults_of(faults, *method);
+  const auto told = vigil::rig::faults_of(faults, *method);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].code, "no_reading");
   EXPECT_EQ(told[0].count, 3);

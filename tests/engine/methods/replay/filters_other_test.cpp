@@ -66,7 +66,9 @@ TEST(UfirFilter, IsExactWithoutNoise) {
     const Eigen::VectorXd u = 10 * random.vector(1);
     x = system.A * x + system.B * u;
     rig::tick(*method, system.C * x, u, faults, k);
-    if (k >= 3) EXPECT_LT((rig::estimate(*method, 3) - x).norm(), 1e-9 * std::max(1.0, x.norm())) << k;
+    if (k >= 3) {
+      EXPECT_LT((rig::estimate(*method, 3) - x).norm(), 1e-9 * std::max(1.0, x.norm())) << k;
+    }
   }
 }
 
@@ -88,7 +90,7 @@ TEST(UfirFilter, PredictsThroughAGapAndFillsItsWindowAnew) {
       expect_estimate(*method, fit(system, record, std::max(16, k - 5), k), 1e-8, k);
     }
   }
-  const auto told = rig::faults_of(faults, *method);
+  const auto told = vigil::rig::faults_of(faults, *method);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].code, "no_reading");
   EXPECT_EQ(told[0].count, 1);
@@ -154,7 +156,7 @@ TEST(Gmeekf, PredictsThroughAGap) {
     }
     expect_estimate(*method, plain.x, 1e-5, k);
   }
-  ASSERT_EQ(rig::faults_of(faults, *method).size(), 1U);
+  ASSERT_EQ(vigil::rig::faults_of(faults, *method).size(), 1U);
 }
 
 }  // namespace
