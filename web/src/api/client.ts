@@ -98,5 +98,5 @@ export const api = {
   samples: (id: string, query: { signals: string; from?: number; to?: number; points?: number }, signal?: AbortSignal) =>
     get<Samples>(runPath(id, '/samples'), query, signal),
   samplesAddress: (id: string, query: { signals: string; from?: number; to?: number; points?: number }) => address(runPath(id, '/samples'), query),
-  marks: (id: string, query: { from?: number; to?: number; type?: string } = {}, signal?: AbortSignal) => get<Page<Mark>>(runPath(id, '/marks'), query, signal),
+  marks: (id: string, query: { from?: number; to?: number; type?: string; limit?: number; cursor?: string } = {}, signal?: AbortSignal) => get<Page<Mark>>(runPath(id, '/marks'), query, signal),
 };

@@ -46,6 +46,14 @@ describe('marks', () => {
     expect(merged.map((one) => one.k)).toEqual([1, 3, 5]);
   });
 
+  it('of a restless detector are cut, and the attack among them is kept', () => {
+    const alarms = Array.from({ length: 6000 }, (_, k) => mark(k + 1, { type: 'alarm', edge: k % 2 ? 'end' : 'begin', lane: 'a' }));
+    const merged = mergeMarks([mark(1, { id: 'a1', edge: 'begin' }), ...alarms], [mark(2, { type: 'command' })]);
+    expect(merged).toHaveLength(5000);
+    expect(merged.slice(0, 3).map((one) => [one.k, one.type])).toEqual([[1, 'attack'], [2, 'command'], [1003, 'alarm']]);
+    expect(activeAttacks(merged).map((one) => one.id)).toEqual(['a1']);
+  });
+
   it('say which attacks go on', () => {
     const marks = [mark(1, { id: 'links', edge: 'begin' }), mark(4, { id: 'a1', edge: 'begin' }), mark(9, { id: 'a1', edge: 'end' }), mark(9, { id: 'a2', edge: 'begin' })];
     expect(activeAttacks(marks).map((one) => one.id)).toEqual(['links', 'a2']);

@@ -14,7 +14,7 @@ function key(mark: Mark): string {
   return [mark.k, mark.type, mark.edge ?? '', mark.id ?? '', mark.lane ?? '', mark.node ?? '', mark.link ?? '', mark.code ?? '', mark.detail ?? ''].join('|');
 }
 
-/** Both lists as one, by tick, none twice; the newest few thousand. */
+/** Both lists as one, by tick, none twice. Of alarms and faults only the newest few thousand: attacks and commands are never lost among them. */
 export function mergeMarks(a: readonly Mark[], b: readonly Mark[]): Mark[] {
   const seen = new Set<string>();
   const all: Mark[] = [];
@@ -25,7 +25,9 @@ export function mergeMarks(a: readonly Mark[], b: readonly Mark[]): Mark[] {
     seen.add(name);
     all.push(mark);
   }
-  return all.sort((x, y) => x.k - y.k).slice(-most);
+  all.sort((x, y) => x.k - y.k);
+  let spare = all.length - most;
+  return spare > 0 ? all.filter((mark) => (mark.type !== 'alarm' && mark.type !== 'fault') || spare-- <= 0) : all;
 }
 
 /** Attacks that began and did not end yet, by id. */

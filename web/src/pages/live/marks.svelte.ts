@@ -4,6 +4,9 @@ import type { Mark } from '../../api/types';
 import { activeAttacks, mergeMarks } from './mark_order';
 
 const batchMs = 200;
+/** Marks are read so many at a time, and so often: a restless detector makes thousands. */
+const page = 10_000;
+const mostPages = 5;
 
 export class MarkList {
   all = $state.raw<Mark[]>([]);
@@ -13,7 +16,13 @@ export class MarkList {
 
   async load(run: string): Promise<void> {
     try {
-      this.all = mergeMarks(this.all, (await api.marks(run)).items);
+      let cursor: string | undefined;
+      for (let i = 0; i < mostPages; i++) {
+        const { items, next } = await api.marks(run, { limit: page, cursor });
+        this.all = mergeMarks(this.all, items);
+        if (!next) break;
+        cursor = next;
+      }
     } catch {
       // The list stays as the stream gives it; the run's own problem is shown by the page.
       return;

@@ -65,6 +65,7 @@ export const en = {
   ended_no_change: 'The run has ended.',
   // figures
   figure_rmse_note: 'root mean square over the nodes of the position error at this tick; below it the run so far',
+  figure_state_note: 'norm of the error of the state at this tick, attacked or not',
   figure_run: 'run {value}',
   figure_toggle: 'Show or hide {lane}. Double click: this lane alone.',
   links_clean: 'untouched links',

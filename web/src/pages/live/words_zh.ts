@@ -65,6 +65,7 @@ export const zh: Translation<typeof en> = {
   attack_no_places: '该运行没有可攻击的链路或传感器。',
   ended_no_change: '运行已结束。',
   figure_rmse_note: '此步各节点位置误差的均方根；下方为运行至今的值',
+  figure_state_note: '此步状态误差的范数，不论是否受攻击',
   figure_run: '至今 {value}',
   figure_toggle: '显示或隐藏 {lane}。双击：只看此通道。',
   links_clean: '未受攻击的链路',
