@@ -11,7 +11,8 @@ namespace {
 const std::string kRunColumns =
     "SELECT "
     "run.id,scenario,family,title,state,seed,version,cpu,pace,input,trace,tags,note,created,started,ended,parent_run,"
-    "parent_k,dt,steps,k,policy,keep,reproducible,document_hash,error,(SELECT count(*) FROM gap WHERE gap.run=run.id)";
+    "parent_k,dt,steps,k,policy,keep,reproducible,document_hash,error,(SELECT count(*) FROM gap WHERE gap.run=run.id),"
+    "(SELECT count(*) FROM command WHERE command.run=run.id)";
 
 RunRow run_row(const Statement& query) {
   RunRow row;
@@ -41,6 +42,7 @@ RunRow run_row(const Statement& query) {
   row.document_hash = query.text(24);
   row.error = query.text(25);
   row.gaps = query.integer(26);
+  row.changes = query.integer(27);
   return row;
 }
 
@@ -124,7 +126,7 @@ RunPage LogReader::list(const Query& filter, std::string_view sort, int limit, s
     }
     RunRow row = run_row(query);
     row.metrics = read_metrics(*database, row.id, true);
-    last = order.cursor_of(query, 27, row.id);
+    last = order.cursor_of(query, 28, row.id);
     page.items.push_back(std::move(row));
   }
   return page;

@@ -113,8 +113,9 @@ struct RunRow {
   std::optional<double> keep;
   bool reproducible = true;
   std::string document_hash;
-  std::string error;      ///< empty: none
-  std::int64_t gaps = 0;  ///< places where a full queue dropped samples
+  std::string error;         ///< empty: none
+  std::int64_t gaps = 0;     ///< places where a full queue dropped samples
+  std::int64_t changes = 0;  ///< commands that the run took while it ran
 
   std::vector<MetricValue> metrics;
   Json document;

@@ -41,6 +41,7 @@ Json base(const RunRow& row, const Look& look, const Services& services) {
   Json run;
   run["id"] = std::to_string(row.id);
   run["scenario"] = row.scenario;
+  run["document_hash"] = row.document_hash;
   run["family"] = row.family;
   run["title"] = row.title;
   run["state"] = live != nullptr ? live->state : row.state;
@@ -69,6 +70,7 @@ void add_end(Json& run, const RunRow& row, const RunStatus* live) {
   run["error"] = error.empty() ? Json() : Json(error);
   run["reproducible"] = row.reproducible;
   run["log"] = {{"gaps", row.gaps}};
+  run["changes"] = row.changes;
 }
 
 }  // namespace

@@ -1,8 +1,25 @@
 #include "server/runs/order.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vigil {
+namespace {
+
+constexpr double kMostExact = 9007199254740992.0;  // 2^53: up to here every whole number is a double
+
+/// The document however its numbers were written: whoever reads it and sends it back may have made 1 of 1.0.
+Json canonical(Json value) {
+  if (value.is_number_float()) {
+    const double number = value.get<double>();
+    if (std::abs(number) < kMostExact && number == std::trunc(number)) return static_cast<std::int64_t>(number);
+  }
+  if (value.is_structured())
+    for (Json& member : value) member = canonical(std::move(member));
+  return value;
+}
+
+}  // namespace
 
 Run make_run(const RunOrder& order) {
   RunOptions options;
@@ -18,7 +35,7 @@ RunRecord make_record(const RunOrder& order, const Run& run) {
   record.scenario = order.scenario.id();
   record.family = order.scenario.family();
   record.document = document;
-  record.document_hash = sha256_hex(document.dump());
+  record.document_hash = sha256_hex(canonical(document).dump());
   record.seed = order.seed;
   record.version = std::string(version());
   record.cpu = cpu_features();

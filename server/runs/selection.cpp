@@ -25,7 +25,7 @@ bool in_overview(const Signal& signal) {
   if (!signal.lane.empty()) {
     const std::string own = "lane." + signal.lane + ".";  // a plant of the lane's own is for those who look at the lane
     if (starts(signal.name, own + "truth.") || starts(signal.name, own + "input.")) return false;
-    return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error");
+    return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error") || ends(signal.name, ".alarm");
   }
   if (starts(signal.name, "truth.") || starts(signal.name, "input.")) return true;
   return (starts(signal.name, "link.") || starts(signal.name, "sensor.")) && ends(signal.name, ".state");

@@ -45,6 +45,9 @@ TEST_F(ControlTest, LiveParametersAreCommittedCommands) {
   ASSERT_EQ(changed.status, 200) << changed.body;
   EXPECT_EQ(changed.json.at("pace"), 40.0);
   ASSERT_EQ(changed.json.at("commands").size(), 1u);
+  const Json listed = client_->get("/api/v1/runs?q=id:" + id).json.at("items").at(0);
+  EXPECT_EQ(listed.at("changes"), 1);
+  EXPECT_EQ(listed.at("document_hash"), changed.json.at("document_hash"));
   EXPECT_EQ(changed.json.at("commands")[0].at("body").at("params").at("lanes.consensus.params.tau"), 0.02);
   EXPECT_TRUE(eventually([&] { return !client_->get(path(id) + "/marks?type=command").json.at("items").empty(); }));
 }

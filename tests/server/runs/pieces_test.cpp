@@ -95,6 +95,34 @@ TEST(Topics, ALaneThatReconstructsComesWithWhatWasInjected) {
   }
 }
 
+TEST(Topics, TheOverviewHasEveryAlarm) {
+  RunOrder order;
+  order.scenario = Scenario::preset("replay-ubb");
+  const vigil::Run run = make_run(order);
+  const auto topics = hub_topics(run.catalogue(), order.scenario.document());
+  const auto carries = [&](const char* name) {
+    return std::any_of(topics.front().signals.begin(), topics.front().signals.end(),
+                       [&](int id) { return run.catalogue()[id].name == name; });
+  };
+  EXPECT_TRUE(carries("lane.repaired.1.alarm"));
+  EXPECT_TRUE(carries("lane.zonotope.1.alarm"));
+  EXPECT_FALSE(carries("lane.repaired.1.statistic"));
+}
+
+TEST(RecordOfARun, HashesADocumentHoweverItsNumbersAreWritten) {
+  RunOrder order;
+  order.scenario = Scenario::preset("replay-ubb");
+  const std::string hash = make_record(order, make_run(order)).document_hash;
+  Json document = order.scenario.document();
+  ASSERT_TRUE(document["plant"]["params"]["A"][0][0].is_number_float());
+  document["plant"]["params"]["A"][0][0] = 1;
+  order.scenario = Scenario::from_json(document);
+  EXPECT_EQ(make_record(order, make_run(order)).document_hash, hash);
+  document["plant"]["params"]["A"][0][0] = 1.0625;
+  order.scenario = Scenario::from_json(document);
+  EXPECT_NE(make_record(order, make_run(order)).document_hash, hash);
+}
+
 TEST(SignalQuery, KeepsTheOrderAskedFor) {
   const std::vector<Signal> signals{
       {.id = 0, .name = "truth.x"}, {.id = 1, .name = "truth.y"}, {.id = 2, .name = "lane.a.rmse"}};
