@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { RunDetail } from '../../api/types';
-import { placesOf, typesAt, usualKind, usualType } from './attack_places';
+import { placesOf, setByHand, typesAt, usualKind, usualType } from './attack_places';
 
 const types = ['bias', 'dos', 'dos_fdi', 'radar_fdi', 'replay', 'of_the_future'];
 const run = (adversary: Record<string, unknown>): RunDetail => ({ document: { adversary } }) as unknown as RunDetail;
@@ -17,6 +17,11 @@ describe('places of an attack by hand', () => {
   it('take the attacks that act there, and those that nobody knows', () => {
     expect(typesAt(types, 'link')).toEqual(['bias', 'dos', 'dos_fdi', 'of_the_future']);
     expect(typesAt(types, 'sensor')).toEqual(['bias', 'radar_fdi', 'replay', 'of_the_future']);
+  });
+
+  it('ask for no schedule that the dialog asks for already', () => {
+    expect(['case', 'record_from', 'record_to', 'start', 'end'].filter((name) => setByHand('replay', name))).toEqual(['record_from', 'record_to']);
+    expect(setByHand('dos', 'start')).toBe(true);
   });
 
   it('begin with what the scenario itself attacks', () => {

@@ -8,6 +8,13 @@ export type PlaceKind = 'link' | 'sensor';
 const only: Readonly<Record<string, PlaceKind>> = { dos: 'link', dos_fdi: 'link', radar_fdi: 'sensor', replay: 'sensor' };
 const usual: Readonly<Record<PlaceKind, string>> = { link: 'dos_fdi', sensor: 'replay' };
 
+/** Parameters that say when an attack acts: by hand it acts from now on, for as long as the dialog says. */
+const schedules: Readonly<Record<string, readonly string[]>> = { replay: ['case', 'start', 'end'] };
+
+export function setByHand(type: string, parameter: string): boolean {
+  return !schedules[type]?.includes(parameter);
+}
+
 export function typesAt(types: readonly string[], kind: PlaceKind): string[] {
   return types.filter((type) => (only[type] ?? kind) === kind);
 }

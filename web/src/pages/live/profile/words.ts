@@ -44,7 +44,7 @@ export const en = {
   measured_calm: 'So far nothing was attacked; it flagged {fpr} of the ticks.',
   measured_accuracy: 'It was right at {accuracy} of all ticks; always saying “no attack” would be right at {quiet}.',
   event_says_nothing: 'That there was some flag during the attack says nothing: in the same ticks without the attack there was one, too.',
-  only: 'Only “as written” and “eq29” are the paper’s own. Every other lane is an honest change of it or a baseline.',
+  only: 'The paper’s own are the method as printed (as_written) and its equation (29) read literally (eq29), nothing else: every other lane is an honest change or a baseline.',
 };
 
 const zh: Translation<typeof en> = {
@@ -91,7 +91,7 @@ const zh: Translation<typeof en> = {
   measured_calm: '至今没有攻击；有 {fpr} 的步报警。',
   measured_accuracy: '全部步中有 {accuracy} 判断正确；若总说“没有攻击”，正确率也有 {quiet}。',
   event_says_nothing: '攻击期间出现过报警，并不说明什么：同样的步在没有攻击时也出现过。',
-  only: '只有 “as written” 与 “eq29” 是论文自己的方法，其余都是对它的如实修改或对照方法。',
+  only: '属于论文自己的只有按其所印的方法（as_written）与按字面理解的式 (29)（eq29）；其余都是如实的修改或对照方法。',
 };
 
 export const t = dictionary('profile', en, zh);
