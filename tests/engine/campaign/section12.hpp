@@ -22,7 +22,7 @@ struct Figure {
   double value = 0, error = 0;
 };
 
-/// Summaries of one campaign by lane, name and node.
+/// Summaries of one campaign by lane, name, node and variant.
 class Results {
  public:
   Results(const Scenario& scenario, int trials, std::uint64_t first_seed = 1) {
@@ -33,11 +33,12 @@ class Results {
       table.add(trial);
     }
     for (const MetricSummary& row : table.summary())
-      rows_[row.key.lane + " " + row.key.name + " " + row.key.node] = row;
+      rows_[row.key.lane + " " + row.key.name + " " + row.key.node + " " + row.key.variant] = row;
   }
 
-  const MetricSummary& row(const std::string& lane, const std::string& name, const std::string& node = "") const {
-    return rows_.at(lane + " " + name + " " + node);
+  const MetricSummary& row(const std::string& lane, const std::string& name, const std::string& node = "",
+                           const std::string& variant = "") const {
+    return rows_.at(lane + " " + name + " " + node + " " + variant);
   }
   double mean(const std::string& lane, const std::string& name = "rmse_position", const std::string& node = "") const {
     return row(lane, name, node).mean;
