@@ -1,9 +1,10 @@
 // A tour without a pointer.
 import assert from 'node:assert/strict';
-import { after, before, describe, test } from 'node:test';
-import { openBrowser, openPage } from './support/browser.mjs';
+import { describe, test } from 'node:test';
+import { openPage } from './support/browser.mjs';
 import { cursorOf, rangeOf, shownTick, tickPast } from './support/live.mjs';
-import { call, startServer, until } from './support/server.mjs';
+import { call, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 
 /** Tab until what has the focus answers true. */
 async function tabTo(page, what, holds, most = 250) {
@@ -17,14 +18,7 @@ async function tabTo(page, what, holds, most = 250) {
 describe('by keyboard alone', () => {
   let server;
   let browser;
-  before(async () => {
-    server = await startServer({ options: ['--no-demo'] });
-    browser = await openBrowser();
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
-  });
+  withSite((site) => ({ server, browser } = site));
 
   test('from the scenarios to a running experiment, through it, and to the list of runs', async () => {
     const view = await openPage(browser, server);

@@ -1,21 +1,15 @@
 // Watching and changing a run while it goes on.
 import assert from 'node:assert/strict';
-import { after, before, describe, test } from 'node:test';
-import { openBrowser, openPage } from './support/browser.mjs';
+import { describe, test } from 'node:test';
+import { openPage } from './support/browser.mjs';
 import { button, csvOf, cursorOf, openLive, rangeOf, shownTick, tickPast } from './support/live.mjs';
 import { call, runUntil, startServer, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 
 describe('live page', () => {
   let server;
   let browser;
-  before(async () => {
-    server = await startServer({ options: ['--no-demo'] });
-    browser = await openBrowser();
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
-  });
+  withSite((site) => ({ server, browser } = site));
 
   const tickOf = async (run) => (await call(server, 'GET', `/runs/${run.id}`)).progress.k;
 

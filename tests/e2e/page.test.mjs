@@ -2,12 +2,13 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { checkAxe, violations } from './support/axe.mjs';
-import { openBrowser, openPage, refused } from './support/browser.mjs';
+import { openPage, refused } from './support/browser.mjs';
 import { button, tickPast } from './support/live.mjs';
-import { call, dist, runUntil, startServer, until } from './support/server.mjs';
+import { call, dist, finishedRun, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 
 describe('every page', () => {
   let server;
@@ -15,17 +16,11 @@ describe('every page', () => {
   let demo;
   let finished;
 
-  before(async () => {
-    server = await startServer();
-    browser = await openBrowser();
+  withSite(async (site) => {
+    ({ server, browser } = site);
     demo = await until('the demo runs', async () => (await call(server, 'GET', '/server')).demo);
-    finished = (await call(server, 'POST', '/runs', { scenario: 'consensus', seed: 3, pace: 'max' })).id;
-    await runUntil(server, finished, 'finished');
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
-  });
+    finished = (await finishedRun(server, { scenario: 'consensus', seed: 3 })).id;
+  }, []);
 
   const pages = () => ['/', `/live/${demo}`, '/runs', `/runs/${finished}`, '/scenarios', '/scenarios/consensus', '/about', '/nowhere'];
   /** What has to be there before a page counts as shown. */

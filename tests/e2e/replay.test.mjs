@@ -1,14 +1,14 @@
 // The replay family's panels: detector, what-if, state and its set, errors, rates, runs in the log, the card; an attack by hand.
 import assert from 'node:assert/strict';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
-import { openBrowser, openPage } from './support/browser.mjs';
-import { button, tickPast } from './support/live.mjs';
-import { call, runUntil, startServer, until } from './support/server.mjs';
+import { openPage } from './support/browser.mjs';
+import { button, openRange, query, tickPast } from './support/live.mjs';
+import { call, finishedRun, runUntil, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 import { everyTick, panel } from './support/sparse.mjs';
 
 const last = 300;
-const query = (page, key) => new URL(page.url()).searchParams.get(key);
 const metricOf = (run, lane, name) => run.metrics.find((metric) => metric.lane === lane && metric.name === name && !metric.node && !metric.variant)?.value ?? null;
 const word = (lane) => lane.replaceAll('_', ' ');
 const card = (page) => page.locator('#profile');
@@ -29,20 +29,13 @@ describe('the replay family', () => {
   let server;
   let browser;
   let run;
-  before(async () => {
-    server = await startServer({ options: ['--no-demo'] });
-    browser = await openBrowser();
-    run = await call(server, 'POST', '/runs', { scenario: 'replay-ubb', seed: 3, pace: 'max' });
-    run = await runUntil(server, run.id, 'finished');
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
+  withSite(async (site) => {
+    ({ server, browser } = site);
+    run = await finishedRun(server, { scenario: 'replay-ubb', seed: 3 });
   });
 
   async function open(more = '', options = {}) {
-    const view = await openPage(browser, server, { permissions: ['clipboard-read', 'clipboard-write'], ...options });
-    await view.goto(`/live/${run.id}?range=0-${last}${more}`);
+    const view = await openRange(browser, server, run.id, last, more, options);
     await view.page.locator('.detector canvas').first().waitFor();
     return view;
   }

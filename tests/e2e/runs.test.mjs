@@ -1,10 +1,11 @@
 // Finding runs again, and what can be done with them.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, describe, test } from 'node:test';
-import { holdClock, openBrowser, openPage, refused } from './support/browser.mjs';
+import { describe, test } from 'node:test';
+import { holdClock, openPage, refused } from './support/browser.mjs';
 import { button } from './support/live.mjs';
-import { call, runUntil, startServer, until } from './support/server.mjs';
+import { call, finishedRun, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 
 describe('runs', () => {
   let server;
@@ -12,21 +13,15 @@ describe('runs', () => {
   let ids;
   const nasty = '<img src=x onerror="document.title=1">';
 
-  before(async () => {
-    server = await startServer({ options: ['--no-demo'] });
+  withSite(async (site) => {
+    ({ server, browser } = site);
     ids = [];
     for (let seed = 1; seed <= 5; seed += 1) {
       const patch = seed === 3 ? { lanes: { consensus: { params: { tau: 0.02 } } } } : {};
       const tags = seed === 4 ? ['paper', nasty] : [];
-      const run = await call(server, 'POST', '/runs', { scenario: 'consensus', seed, pace: 'max', patch, tags });
-      await runUntil(server, run.id, 'finished');
+      const run = await finishedRun(server, { scenario: 'consensus', seed, patch, tags });
       ids.push(run.id);
     }
-    browser = await openBrowser();
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
   });
 
   const shown = (page) => page.locator('tr[data-run]').evaluateAll((rows) => rows.map((row) => row.dataset.run));

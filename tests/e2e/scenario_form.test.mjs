@@ -1,9 +1,10 @@
 // From the parameter form to a running experiment.
 import assert from 'node:assert/strict';
-import { after, before, describe, test } from 'node:test';
-import { holdClock, openBrowser, openPage, refused } from './support/browser.mjs';
+import { describe, test } from 'node:test';
+import { holdClock, openPage, refused } from './support/browser.mjs';
 import { button, tickPast } from './support/live.mjs';
-import { call, startServer, until } from './support/server.mjs';
+import { call, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 
 const field = (page, pointer) => page.locator(`[id="f${pointer}"]`);
 const kTau = '/lanes/consensus/params/tau';
@@ -11,14 +12,7 @@ const kTau = '/lanes/consensus/params/tau';
 describe('scenario form', () => {
   let server;
   let browser;
-  before(async () => {
-    server = await startServer({ options: ['--no-demo'] });
-    browser = await openBrowser();
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
-  });
+  withSite((site) => ({ server, browser } = site));
 
   test('starts a run with a changed parameter', async () => {
     const view = await openPage(browser, server);

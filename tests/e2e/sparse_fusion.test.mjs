@@ -1,10 +1,11 @@
 // Whose estimate every node takes and why, what it makes of the attack on its sensor, and whether that can be known at all.
 import assert from 'node:assert/strict';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
-import { openBrowser, openPage } from './support/browser.mjs';
+import { openPage } from './support/browser.mjs';
 import { tickPast } from './support/live.mjs';
-import { call, runUntil, startServer, until } from './support/server.mjs';
+import { call, finishedRun, runUntil, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 import { channels, everyTick, letters, panel, stations } from './support/sparse.mjs';
 
 const last = 200;
@@ -13,15 +14,9 @@ describe('the game and the reconstruction', () => {
   let server;
   let browser;
   let run;
-  before(async () => {
-    server = await startServer({ options: ['--no-demo'] });
-    browser = await openBrowser();
-    run = await start({ seed: 5, pace: 'max' });
-    run = await runUntil(server, run.id, 'finished');
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
+  withSite(async (site) => {
+    ({ server, browser } = site);
+    run = await finishedRun(server, { scenario: 'sparse', seed: 5 });
   });
 
   const start = (more) => call(server, 'POST', '/runs', { scenario: 'sparse', ...more });

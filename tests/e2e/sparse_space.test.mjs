@@ -1,16 +1,16 @@
 // The sparse family's panels of where things are and how far off: trajectories in space, errors per node, Table 2.
 import assert from 'node:assert/strict';
-import { after, before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
-import { openBrowser, openPage } from './support/browser.mjs';
-import { button, cursorOf, tickPast } from './support/live.mjs';
-import { call, runUntil, startServer, until } from './support/server.mjs';
+import { openPage } from './support/browser.mjs';
+import { button, cursorOf, openRange, query, tickPast } from './support/live.mjs';
+import { call, finishedRun, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
 import { everyTick, panel, stations } from './support/sparse.mjs';
 
 const last = 200;
 const space = (page) => panel(page, 'Trajectories');
 const view3 = (page) => space(page).getByRole('application');
-const query = (page, key) => new URL(page.url()).searchParams.get(key);
 
 /** The canvas as a text: another picture is another text. */
 const picture = (page) => view3(page).locator('canvas').evaluate((canvas) => canvas.toDataURL());
@@ -24,20 +24,13 @@ describe('trajectories, errors and Table 2', () => {
   let server;
   let browser;
   let run;
-  before(async () => {
-    server = await startServer({ options: ['--no-demo'] });
-    browser = await openBrowser();
-    run = await call(server, 'POST', '/runs', { scenario: 'sparse', seed: 3, pace: 'max' });
-    run = await runUntil(server, run.id, 'finished');
-  });
-  after(async () => {
-    await browser?.close();
-    await server?.stop();
+  withSite(async (site) => {
+    ({ server, browser } = site);
+    run = await finishedRun(server, { scenario: 'sparse', seed: 3 });
   });
 
   async function open(more = '', options = {}) {
-    const view = await openPage(browser, server, { permissions: ['clipboard-read', 'clipboard-write'], ...options });
-    await view.goto(`/live/${run.id}?range=0-${last}${more}`);
+    const view = await openRange(browser, server, run.id, last, more, options);
     await view3(view.page).locator('canvas').waitFor();
     // Nothing is drawn until the samples are there.
     const blank = await view3(view.page).locator('canvas').evaluate((canvas) => Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height }).toDataURL());

@@ -1,5 +1,6 @@
 // What the tests know of the live page: its words in English and where its numbers stand.
 import assert from 'node:assert/strict';
+import { openPage } from './browser.mjs';
 import { until } from './server.mjs';
 
 /** The tick the header shows. */
@@ -27,9 +28,17 @@ export async function openLive(view, server, call, more = {}) {
   return run;
 }
 
+/** A page with the live view of a run, from its first tick to `last`; `more` goes to the address. It may use the clipboard. */
+export async function openRange(browser, server, id, last, more = '', options = {}) {
+  const view = await openPage(browser, server, { permissions: ['clipboard-read', 'clipboard-write'], ...options });
+  await view.goto(`/live/${id}?range=0-${last}${more}`);
+  return view;
+}
+
+export const query = (page, key) => new URL(page.url()).searchParams.get(key);
 /** The tick that the pinned cursor stands on, from the address. */
-export const cursorOf = (page) => new URL(page.url()).searchParams.get('k');
-export const rangeOf = (page) => new URL(page.url()).searchParams.get('range');
+export const cursorOf = (page) => query(page, 'k');
+export const rangeOf = (page) => query(page, 'range');
 
 export async function csvOf(download) {
   const stream = await download.createReadStream();
