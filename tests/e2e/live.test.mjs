@@ -11,6 +11,10 @@ describe('live page', () => {
   let browser;
   withSite((site) => ({ server, browser } = site));
 
+  /** Waits until the page has asked for the run and has taken the answer: the next question comes after that. */
+  async function refreshed(page, run) {
+    for (let i = 0; i < 2; i += 1) await page.waitForResponse((response) => response.url().endsWith(`/api/v1/runs/${run.id}`));
+  }
   const tickOf = async (run) => (await call(server, 'GET', `/runs/${run.id}`)).progress.k;
 
   test('pauses, makes single steps and goes on', async () => {
@@ -86,6 +90,7 @@ describe('live page', () => {
     const dialog = page.getByRole('dialog', { name: 'Attack a link' });
     await dialog.getByRole('combobox', { name: 'Attack' }).selectOption('dos');
     await dialog.getByRole('checkbox', { name: 'all links' }).uncheck();
+    await refreshed(page, run);
     await dialog.getByRole('button', { name: '2→3', exact: true }).click();
     await dialog.getByRole('button', { name: 'Start the attack' }).click();
     await until('the run has the attack', async () => (await marks('begin')).length > 0);
