@@ -32,6 +32,11 @@ void Course::sense(const World& world) {
   for (std::size_t i = 0; i < readings.size(); ++i) {
     world.sensors[i]->measure(truth, readings[i]);
     readings[i] += world.sensing[i];
+    const auto& channels = world.sensors[i]->channels();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      double& reading = readings[i][static_cast<Eigen::Index>(c)];
+      if (channels[c].period > 0) reading = wrap(reading, channels[c].period);
+    }
   }
 }
 
