@@ -4,26 +4,40 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "engine/core/describe.hpp"
 #include "engine/core/params.hpp"
 
 namespace vigil {
 
+namespace {
+
+/// "R is [[..],..] and <why>; expected a symmetric positive … matrix", named as the pointer's end.
+[[noreturn]] void refuse(const Eigen::MatrixXd& matrix, const std::string& pointer, const std::string& why,
+                         Definiteness kind) {
+  Json rows = Json::array();
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    rows.push_back(Json::array());
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) rows.back().push_back(matrix(r, c));
+  }
+  const std::string expected =
+      std::string("a symmetric positive ") + (kind == Definiteness::definite ? "definite" : "semidefinite") + " matrix";
+  throw InputError(
+      pointer,
+      fmt::format("{} is {} and {}; expected {}", pointer.substr(pointer.rfind('/') + 1), shown(rows), why, expected),
+      expected);
+}
+
+}  // namespace
+
 void check_covariance(const Eigen::MatrixXd& matrix, const std::string& pointer, Definiteness kind) {
   const double size = matrix.cwiseAbs().maxCoeff();
-  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size) {
-    throw InputError(pointer, "the matrix is not symmetric; a covariance is");
-  }
+  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size)
+    refuse(matrix, pointer, "is not symmetric", kind);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
   const double smallest = eigen.eigenvalues()[0];
-  if (kind == Definiteness::definite && smallest <= 0) {
-    throw InputError(pointer,
-                     fmt::format("the smallest eigenvalue is {:.6g}; the matrix must be positive definite", smallest),
-                     "> 0");
-  }
-  if (smallest < -1e-12 * size) {
-    throw InputError(
-        pointer, fmt::format("the smallest eigenvalue is {:.6g}; a covariance has none below zero", smallest), ">= 0");
-  }
+  if (smallest < -1e-12 * size)
+    refuse(matrix, pointer, fmt::format("has the negative eigenvalue {:.6g}", smallest), kind);
+  if (kind == Definiteness::definite && smallest <= 0) refuse(matrix, pointer, "is not positive definite", kind);
 }
 
 Eigen::MatrixXd read_covariance(const Json& value, int n, const std::string& pointer, Definiteness kind) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/describe.hpp"
 #include "engine/linalg/covariance.hpp"
 #include "engine/linalg/riccati.hpp"
 #include "engine/world/controller.hpp"
@@ -21,11 +22,15 @@ class Lqg final : public Controller {
     const Eigen::MatrixXd Qc = params.square("Qc", n), Rc = params.square("Rc", plant.inputs());
     check_covariance(Qc, "/Qc", Definiteness::semidefinite);
     check_covariance(Rc, "/Rc", Definiteness::definite);
+    if (!stabilisable(model.A, model.B))
+      throw InputError("/",
+                       "the input does not move a mode of the plant that does not decay, so no feedback stabilises "
+                       "it; expected a stabilisable pair (A, B)");
     const auto S = solve_dare(model.A, model.B, Qc, Rc);
     if (!S)
-      throw InputError("/Qc",
-                       "no feedback stabilises this plant: (A, B) is not stabilisable or its Riccati equation has no "
-                       "stabilising solution");
+      throw InputError("/Qc", "Qc is " + shown(params.values()["Qc"]) +
+                                  ", which does not weigh a mode on the unit circle: the Riccati equation has no "
+                                  "stabilising solution; expected every such mode weighed");
     L_ = lqr_gain(model.A, model.B, Rc, *S);
     closed_ = model.A + model.B * L_;
     steady_ = Eigen::MatrixXd::Zero(n, plant.inputs());

@@ -17,9 +17,9 @@ GmeeSettings settings_of(const Params& params) {
 const System& definite(const System& system) {
   for (const auto& [name, matrix] : {std::pair{"noise.Q", &system.P}, std::pair{"R", &system.R}}) {
     if (matrix->llt().info() != Eigen::Success)
-      throw InputError("/", std::string(name) +
-                                " is singular; the error-entropy filter needs both noises random and "
-                                "positive definite");
+      throw InputError("/", named(name, *matrix) +
+                                " and is singular; the error-entropy filter expects both random noises positive "
+                                "definite");
   }
   return system;
 }

@@ -30,12 +30,10 @@ Watermark watermark_of(const Params& params, const Knowledge& knowledge) {
   const std::string text = params.text("watermark");
   if (text != "none" && knowledge.monitor)
     throw InputError("/watermark",
-                     "watermark is \"" + text +
-                         "\" and the path is monitor; a watermark needs the path "
-                         "loop",
-                     "none");
+                     "watermark is \"" + text + "\" and the path is monitor; expected none, or the path loop", "none");
   if (text == "control" && knowledge.plant->inputs() == 0)
-    throw InputError("/watermark", "watermark is \"control\" and the plant has no input", "none, sensor");
+    throw InputError("/watermark", "watermark is \"control\" and the plant has no input; expected none or sensor",
+                     "none, sensor");
   return text == "sensor" ? Watermark::sensor : (text == "control" ? Watermark::control : Watermark::none);
 }
 
@@ -43,9 +41,13 @@ Watermark watermark_of(const Params& params, const Knowledge& knowledge) {
 double checked_mu(const Params& params, const System& system) {
   const double mu = params.real("mu");
   if (mu == 1 && system.P.isZero(0) && system.R.isZero(0))
-    throw InputError("/mu", "mu is 1 and there is no random noise (P = R = 0): the cost is identically zero", "< 1");
+    throw InputError("/mu",
+                     "mu is 1 and there is no random noise (P = R = 0): the cost is identically zero; expected mu < 1",
+                     "< 1");
   if (mu == 0 && system.Mw.isZero(0) && system.Mv.isZero(0))
-    throw InputError("/mu", "mu is 0 and there is no bounded noise (Mw = Mv = 0): the cost is identically zero", "> 0");
+    throw InputError(
+        "/mu", "mu is 0 and there is no bounded noise (Mw = Mv = 0): the cost is identically zero; expected mu > 0",
+        "> 0");
   return mu;
 }
 
@@ -78,9 +80,9 @@ MixedFilter::MixedFilter(const Params& params, const Knowledge& knowledge)
       heard_(Eigen::VectorXd::Zero(system_.channels())),
       residual_(heard_) {
   if (!schedule_)
-    throw InputError("/",
-                     "the innovation matrix C W C' + S is not invertible: the sensor has no noise and its readings "
-                     "are certain already");
+    throw InputError("/", named("R", system_.R) + " and " + named("Mv", system_.Mv) +
+                              ": the innovation matrix C W C' + S is not invertible, as what the sensor says is "
+                              "certain already; expected noise in every channel");
 }
 
 void MixedFilter::declare(SignalScope& scope) {
@@ -238,97 +240,4 @@ void MixedFilter::retune(const Params& params) {
   detector_.retune(detector_settings(params));
 }
 
-namespace {
-
-const Registration<MethodMake> registration({
-    "mixed_filter",
-    {"Mixed-noise estimator with a residual-energy detector", "混合噪声估计器与残差能量检测器"},
-    "seed 003, eqs. (5)-(28)",
-    ParamTable({
-        {.name = "mu",
-         .fallback = 0.5,
-         .minimum = 0,
-         .maximum = 1,
-         .symbol = "μ",
-         .meaning = {"Weight of the covariance against the ellipsoid: 1 is Kalman's, 0 set-membership",
-                     "协方差相对椭球的权重：1 为卡尔曼，0 为集员"}},
-        {.name = "zeta_max",
-         .fallback = nullptr,
-         .minimum = 0,
-         .exclusive_minimum = true,
-         .nullable = true,
-         .symbol = "ζ_max",
-         .meaning = {"Bound on the scalar of the Minkowski sum; none: infinite, as printed",
-                     "闵可夫斯基和标量的上界；无：无穷大（如原文）"}},
-        {.name = "residual",
-         .type = ParamType::text,
-         .fallback = "posterior",
-         .choices = {"posterior", "innovation"},
-         .meaning = {"What the detector sees: y - C x after the update (as printed), or before it",
-                     "检测器所用残差：更新后（如原文）或更新前的 y - C x"}},
-        {.name = "window",
-         .type = ParamType::integer,
-         .fallback = 5,
-         .minimum = 1,
-         .maximum = 1000,
-         .live = true,
-         .symbol = "t",
-         .meaning = {"Residuals in the statistic", "统计量的残差窗口"}},
-        {.name = "threshold",
-         .type = ParamType::text,
-         .fallback = "printed",
-         .choices = {"printed", "frozen", "fixed_norm", "fixed_square"},
-         .live = true,
-         .symbol = "θ",
-         .meaning = {"As printed, held while flagged, or the largest norm (or its square) before tick 50",
-                     "如原文、报警时冻结，或取第 50 步前的最大范数（或其平方）"}},
-        {.name = "tau",
-         .type = ParamType::integer,
-         .fallback = 20,
-         .minimum = 2,
-         .maximum = 10000,
-         .live = true,
-         .symbol = "τ",
-         .meaning = {"Statistics in the threshold's window", "阈值窗口长度"}},
-        {.name = "eta",
-         .fallback = 2.0,
-         .minimum = 0,
-         .maximum = 1e6,
-         .live = true,
-         .symbol = "η",
-         .meaning = {"Standard deviations above the mean", "标准差倍数"}},
-        {.name = "iota",
-         .fallback = 0.0,
-         .minimum = 0,
-         .maximum = 1e12,
-         .live = true,
-         .symbol = "ι",
-         .meaning = {"Dead-band: smaller changes of the threshold are not made", "阈值死区"}},
-        {.name = "dead_band",
-         .type = ParamType::text,
-         .fallback = "held",
-         .choices = {"held", "raw_step"},
-         .live = true,
-         .meaning = {"A candidate is compared with the threshold held, or with the candidate before it",
-                     "候选值与保持的阈值比较，或与前一候选值比较"}},
-        {.name = "watermark",
-         .type = ParamType::text,
-         .fallback = "none",
-         .choices = {"none", "sensor", "control"},
-         .meaning = {"Secret mark: none, added to what the sensor sends, or to the input",
-                     "密钥水印：无、加于传感器输出，或加于控制输入"}},
-        {.name = "amplitude",
-         .fallback = 0.0,
-         .minimum = 0,
-         .maximum = 1e9,
-         .live = true,
-         .symbol = "a",
-         .meaning = {"Standard deviation of the mark", "水印标准差"}},
-    }),
-    [](const Params& params, const Knowledge& knowledge) -> std::unique_ptr<Method> {
-      return std::make_unique<MixedFilter>(params, knowledge);
-    },
-});
-
-}  // namespace
 }  // namespace vigil::replay

@@ -1,13 +1,21 @@
 #include "engine/methods/replay/start.hpp"
 
+#include <Eigen/LU>
+
 namespace vigil::replay {
 namespace {
 
 Batch make_batch(const System& system) {
   auto batch = Batch::make(system.A, system.B, system.C);
-  if (!batch)
-    throw InputError("/", "no batch can start the estimator: A is singular, or n readings do not determine the state");
-  return *batch;
+  if (batch) return *batch;
+  Eigen::FullPivLU<Eigen::MatrixXd> of_a(system.A);
+  of_a.setThreshold(1e-12);
+  if (!of_a.isInvertible())
+    throw InputError("/", named("A", system.A) +
+                              " and is singular, so that no batch can start the estimator; expected an invertible A");
+  throw InputError("/", named("C", system.C) + ", and " + std::to_string(system.states()) +
+                            " readings do not determine the state, so that no batch can start the estimator; expected "
+                            "an observable pair (A, C)");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "engine/methods/replay/system.hpp"
 
+#include "engine/core/describe.hpp"
 #include "engine/linalg/riccati.hpp"
 #include "engine/world/controller.hpp"
 
@@ -23,8 +24,9 @@ System read_system(const Knowledge& knowledge) {
                 sensor.bounded_noise()};
   sensor.jacobian(Eigen::VectorXd::Zero(model.A.rows()), system.C);
   if (!detectable(system.A, system.C))
-    throw InputError("/",
-                     "a mode of the plant that does not decay is not seen by the sensor: (A, C) is not detectable");
+    throw InputError("/", named("C", system.C) +
+                              ", which does not see a mode of the plant that does not decay; expected a detectable "
+                              "pair (A, C)");
   return system;
 }
 
@@ -35,6 +37,10 @@ Json to_json(const Eigen::MatrixXd& matrix) {
     for (Eigen::Index c = 0; c < matrix.cols(); ++c) rows.back().push_back(matrix(r, c));
   }
   return rows;
+}
+
+std::string named(const char* name, const Eigen::MatrixXd& matrix) {
+  return std::string(name) + " is " + shown(to_json(matrix));
 }
 
 }  // namespace vigil::replay

@@ -19,7 +19,9 @@ struct System {
 /// decay cannot be seen.
 System read_system(const Knowledge& knowledge);
 
-/// The text of a matrix for a design: [[..],..].
+/// A matrix as a document or a design has it: [[..],..].
 Json to_json(const Eigen::MatrixXd& matrix);
+/// "C is [[..],..]" for a message.
+std::string named(const char* name, const Eigen::MatrixXd& matrix);
 
 }  // namespace vigil::replay

@@ -19,8 +19,9 @@ class UfirFilter final : public Method {
         U_(Eigen::MatrixXd::Zero(system_.B.cols(), horizon_)),
         x_(knowledge.estimates.col(0)) {
     if (horizon_ < system_.states())
-      throw InputError("/N", "N is " + std::to_string(horizon_) + "; the plant has " +
-                                 std::to_string(system_.states()) + " states and as many readings start the filter");
+      throw InputError("/N", "N is " + std::to_string(horizon_) + "; expected at least " +
+                                 std::to_string(system_.states()) +
+                                 ", as many readings as the plant has states start the filter");
   }
 
   std::unique_ptr<Method> clone() const override { return std::make_unique<UfirFilter>(*this); }

@@ -1,5 +1,7 @@
 /// A smart sensor that sends its residual, turned and marked in secret; the receiver asks whether what it decodes can
 /// come from a healthy loop. Seed 003, reference [26]; specification, section 8.2.
+#include "engine/core/describe.hpp"
+#include "engine/linalg/riccati.hpp"
 #include "engine/linalg/zonotope.hpp"
 #include "engine/methods/method.hpp"
 #include "engine/methods/replay/system.hpp"
@@ -9,14 +11,24 @@
 namespace vigil::replay {
 namespace {
 
+constexpr double kMarginal = 1e-9;
+
 ZonotopeSchedule make_schedule(const System& system, int order) {
   if (system.Mw.isZero(0) && system.Mv.isZero(0))
-    throw InputError("/", "the zonotope method needs bounded noise; Mw and Mv are zero");
+    throw InputError("/", "Mw and Mv are zero; the zonotope method expects bounded noise");
   if (order < system.states())
     throw InputError("/order", "order is " + std::to_string(order) + "; a zonotope of " +
                                    std::to_string(system.states()) + " dimensions keeps at least as many generators");
+  if (const double radius = spectral_radius(system.A); radius > 1 + kMarginal)
+    throw InputError("/",
+                     named("A", system.A) + " and has the spectral radius " + number_text(radius) +
+                         ": the receiver hears residuals alone, so that it drifts away from its sensor; expected a "
+                         "plant that is stable by itself");
   auto schedule = ZonotopeSchedule::make(system.A, system.C, system.Mw, system.Mv, order);
-  if (!schedule) throw InputError("/", "the innovation matrix of the zonotope filter is not invertible");
+  if (!schedule)
+    throw InputError("/", named("Mv", system.Mv) +
+                              ": the innovation matrix of the zonotope filter is not invertible; expected "
+                              "bounded noise in every channel");
   return *schedule;
 }
 
@@ -32,7 +44,8 @@ class ZonotopeWatermark final : public Method {
         sensor_x_(knowledge.estimates.col(0)),
         x_(sensor_x_) {
     if (knowledge.monitor)
-      throw InputError("/", "the zonotope method's receiver decodes what arrives: it needs the path loop");
+      throw InputError(
+          "/", "the path is monitor; the zonotope method's receiver decodes what arrives: expected the path loop");
   }
 
   std::unique_ptr<Method> clone() const override { return std::make_unique<ZonotopeWatermark>(*this); }
@@ -79,6 +92,12 @@ class ZonotopeWatermark final : public Method {
   Belief belief(int /*output*/) const override { return {.mean = x_.data()}; }
   Detection detection(int /*output*/) const override { return detection_; }
   Json design() const override { return {{"half_widths", to_json(at_sensor_.half_widths())}}; }
+  std::vector<std::string> warnings() const override {
+    if (system_.P.isZero(0) && system_.R.isZero(0)) return {};
+    return {
+        "the noise has a random part, which the healthy set does not hold: false alarms are possible, and after one "
+        "the receiver no longer follows its sensor"};
+  }
   void retune(const Params& params) override { size_ = params.real("rho") * at_sensor_.half_widths(); }
   void rewire(const Graph& /*graph*/, const std::vector<LinkRates>& /*rates*/) override {}
 

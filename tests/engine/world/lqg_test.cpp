@@ -112,13 +112,13 @@ struct Refused {
 TEST(Lqg, RefusesWhatItCannotStabilise) {
   const Json unit = {{1, 0}, {0, 1}};
   const Refused table[] = {
-      {{{1.5, 0}, {0, 0.5}}, {{0}, {1}}, Json::object(), "/Qc", "not stabilisable"},
+      {{{1.5, 0}, {0, 0.5}}, {{0}, {1}}, Json::object(), "/", "expected a stabilisable pair"},
       {unit, nullptr, Json::object(), "/", "an input"},
       {{{0.9, 0}, {0, 1}}, {{1}, {1}}, {{"reference", "step"}}, "/reference", "an eigenvalue at 1"},
       {unit, unit, {{"Rc", 0}}, "/Rc", "positive definite"},
-      {unit, unit, {{"Qc", {{1, 2}, {2, 1}}}}, "/Qc", "below zero"},
+      {unit, unit, {{"Qc", {{1, 2}, {2, 1}}}}, "/Qc", "negative eigenvalue -1"},
       {unit, unit, {{"Qc", {1, 1, 1}}}, "", "2"},
-      {{{1, 0}, {0, 1}}, {{1}, {1}}, {{"Qc", 0}}, "/Qc", "stabilis"}};
+      {{{1, 0}, {0, 0.5}}, {{1}, {1}}, {{"Qc", 0}}, "/Qc", "does not weigh a mode on the unit circle"}};
   for (const Refused& row : table) {
     try {
       lqg(*plant_of(row.A, row.B), row.params);
