@@ -110,6 +110,23 @@ double residual(const Matrix& A, const Matrix& G, const Matrix& Q, const Matrix&
   return (moved + moved.transpose() - taken + Q).norm() / size;
 }
 
+/// Newton's iteration from X, in X's own coordinates, where the answer is near the identity whatever the states' units:
+/// rounding would hide an equation whose terms differ by ten orders. In the given ones where X is singular.
+std::optional<Matrix> polished(const Matrix& A, const Matrix& G, const Matrix& Q, const Matrix& X) {
+  const auto n = A.rows();
+  const Eigen::LLT<Matrix> factor(X);
+  const Matrix T = factor.info() == Eigen::Success ? Matrix(factor.matrixL()) : Matrix::Identity(n, n);
+  const auto lower = T.triangularView<Eigen::Lower>();
+  const Matrix half = lower.solve(Q);
+  const Matrix A_there = lower.solve(A * T), G_there = T.transpose() * G * T;
+  const Matrix Q_there = lower.solve(half.transpose());
+  const Matrix start = factor.info() == Eigen::Success ? Matrix::Identity(n, n) : X;
+  const auto there = newton(A_there, G_there, 0.5 * (Q_there + Q_there.transpose()), start);
+  if (!there || !(residual(A_there, G_there, Q_there, *there) < kResidual)) return std::nullopt;
+  const Matrix back = T * *there * T.transpose();
+  return 0.5 * (back + back.transpose());
+}
+
 }  // namespace
 
 double spectral_abscissa(const Matrix& A) {
@@ -139,8 +156,10 @@ std::optional<Matrix> solve_care(const Matrix& A, const Matrix& C, const Matrix&
   const Matrix G = C.transpose() * R.llt().solve(C);
   const auto start = from_sign(A, G, Q);
   if (!start) return std::nullopt;
-  const auto X = newton(A, G, Q, *start);
-  if (!X || !(residual(A, G, Q, *X) < kResidual)) return std::nullopt;
+  const auto near = newton(A, G, Q, *start);
+  if (!near) return std::nullopt;
+  const auto X = polished(A, G, Q, *near);
+  if (!X) return std::nullopt;
   if (!(spectral_abscissa(A - *X * G) < 0)) return std::nullopt;
   return X;
 }

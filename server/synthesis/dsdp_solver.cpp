@@ -5,6 +5,7 @@ extern "C" {  // one of its headers forgets to say so
 }
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <type_traits>
@@ -15,6 +16,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kBound = 1e10;  // of |y|: at the library's own 1e7 it stops far from the optimum of large gains
+
+// Of the potential that it follows: at the library's own value, with entries given sparsely, it stops 1.4 % above the
+// optimum of the pair's `fast` design; given densely it is eight times slower.
+constexpr double kPotential = 2;
+
+constexpr double kLongest = 1e6;  // s
 
 struct Destroy {
   void operator()(DSDP solver) const { DSDPDestroy(solver); }
@@ -106,7 +113,7 @@ Handle load(const SdpProblem& problem, std::vector<Group>& groups) {
       return nullptr;
     }
   }
-  if (DSDPSetYBounds(raw, -kBound, kBound) != 0) return nullptr;
+  if (DSDPSetYBounds(raw, -kBound, kBound) != 0 || DSDPSetPotentialParameter(raw, kPotential) != 0) return nullptr;
   return solver;
 }
 
@@ -114,11 +121,13 @@ Handle load(const SdpProblem& problem, std::vector<Group>& groups) {
 
 SdpSolution DsdpSolver::solve(const SdpProblem& problem, double limit) {
   const auto begin = Clock::now();
-  Limit clock{.end = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit))};
+  const std::chrono::duration<double> allowed(limit > 0 ? std::min(limit, kLongest) : 0);
+  Limit clock{.end = begin + std::chrono::duration_cast<Clock::duration>(allowed)};
   SdpSolution solution;
+  solution.detail = "DSDP does not take the problem";
+  if (problem.variables() == 0 || problem.blocks.empty()) return solution;
   auto groups = groups_of(problem);
   const Handle solver = load(problem, groups);
-  solution.detail = "DSDP does not take the problem";
   if (!solver || DSDPSetMonitor(solver.get(), look_at_the_clock, &clock) != 0 || DSDPSetup(solver.get()) != 0) {
     return solution;
   }

@@ -32,8 +32,8 @@ Example areas(AreaOutputs outputs, Topology topology = Topology::full, bool atta
 /// Comparison 2: subsystem 2 of the pair alone. Section 8.3.
 Example single();
 
-/// k (even, or 1) subsystems of the pair in turn, each coupled with its two neighbours (k = 2: one). Section 6, the cost table. No
-/// signals.
+/// k (even, or 1) subsystems of the pair in turn, each coupled with its two neighbours (k = 2: one). Section 6, the
+/// cost table. No signals.
 Network ring(int k);
 
 }  // namespace vigil::observer

@@ -217,6 +217,19 @@ Synthesis certification(const ErrorSystem& system, const Gains& gains, const Cer
                gains);
 }
 
+std::vector<std::string> block_names(const Synthesis& synthesis) {
+  std::vector<std::string> names{"Sigma"};
+  const auto each = [&](const char* what) {
+    for (std::size_t i = 0; i < synthesis.system.parts.size(); ++i)
+      names.push_back(fmt::format(fmt::runtime(what), i + 1));
+  };
+  each("P of {} above pmin");
+  if (synthesis.options.pmax) each("P of {} below pmax");
+  if (synthesis.given.empty()) each("L of {} bounded");
+  if (synthesis.options.rmax) each("poles of {} slower than rmax");
+  return names;
+}
+
 std::vector<std::pair<int, int>> places_of_p(const Synthesis& synthesis, std::size_t i) {
   const ErrorPart& part = synthesis.system.parts[i];
   const int size = static_cast<int>(part.Abar.rows());

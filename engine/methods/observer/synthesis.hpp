@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "engine/linalg/sdp.hpp"
@@ -59,6 +59,9 @@ struct CertificationOptions {
 };
 /// Theorem 1 with L given: the least sum of gamma^2. Specification, section 8.1.
 Synthesis certification(const ErrorSystem& system, const Gains& gains, const CertificationOptions& options);
+
+/// What every block of the problem says, in its order: "Sigma", "P of 1 above pmin", … by the subsystems' numbers.
+std::vector<std::string> block_names(const Synthesis& synthesis);
 
 /// An answer in the theorem's own letters.
 struct Design {
