@@ -58,10 +58,10 @@ std::optional<Batch> Batch::make(const Eigen::MatrixXd& A, const Eigen::MatrixXd
   return batch;
 }
 
-Eigen::VectorXd Batch::estimate(const Eigen::Ref<const Eigen::MatrixXd>& Y,
-                                const Eigen::Ref<const Eigen::MatrixXd>& U) const {
+BoundedVector Batch::estimate(const Eigen::Ref<const Eigen::MatrixXd>& Y,
+                              const Eigen::Ref<const Eigen::MatrixXd>& U) const {
   const auto m = U.rows(), p = Y.rows();
-  Eigen::VectorXd estimate = Eigen::VectorXd::Zero(G_.rows());
+  BoundedVector estimate = BoundedVector::Zero(G_.rows());
   for (Eigen::Index i = 0; i < G_.rows(); ++i) {
     estimate.noalias() += GH_.middleCols(i * p, p) * Y.col(i);
     estimate.noalias() += of_input_.middleCols(i * m, m) * U.col(i);

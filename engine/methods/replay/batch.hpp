@@ -17,9 +17,9 @@ class Batch {
 
   int length() const { return static_cast<int>(G_.rows()); }  ///< n, in samples
 
-  /// xh_e = G H' (Y - E U) + BN U. Y: p x n, the readings y_m..y_e; U: m x n, the inputs u_{m-1}..u_{e-1}.
-  Eigen::VectorXd estimate(const Eigen::Ref<const Eigen::MatrixXd>& Y,
-                           const Eigen::Ref<const Eigen::MatrixXd>& U) const;
+  /// xh_e = G H' (Y - E U) + BN U. Y: p x n, the readings y_m..y_e; U: m x n, the inputs u_{m-1}..u_{e-1}. No
+  /// allocation.
+  BoundedVector estimate(const Eigen::Ref<const Eigen::MatrixXd>& Y, const Eigen::Ref<const Eigen::MatrixXd>& U) const;
 
   const Eigen::MatrixXd& G() const { return G_; }    ///< (H'H)^-1, n x n
   const Eigen::MatrixXd& GH() const { return GH_; }  ///< G H', n x pn

@@ -43,10 +43,12 @@ class Gmeekf final : public Method {
   void predict(const Eigen::VectorXd& input, FaultReport& /*report*/) override {
     input_ = input;
     if (!started_) return;
-    const BoundedVector next = system_.A * x_ + system_.B * input_;
+    BoundedVector next = system_.B * input_;
+    next.noalias() += system_.A * x_;
     x_ = next;
     const BoundedMatrix AP = system_.A * P_;
-    P_ = AP * system_.A.transpose() + system_.P;
+    P_ = system_.P;
+    P_.noalias() += AP * system_.A.transpose();
     symmetrise(P_);
   }
 

@@ -142,7 +142,7 @@ void MixedFilter::measure(const Readings& readings, FaultReport& report) {
   }
 }
 
-void MixedFilter::begin(const Eigen::VectorXd& estimate) {
+void MixedFilter::begin(const BoundedVector& estimate) {
   x_ = predicted_ = estimate;
   started_at_ = k_;
   bounds_ = first_;

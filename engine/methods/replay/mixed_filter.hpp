@@ -46,7 +46,7 @@ class MixedFilter final : public Method {
   void rewire(const Graph& /*graph*/, const std::vector<LinkRates>& /*rates*/) override {}
 
  private:
-  void begin(const Eigen::VectorXd& estimate);
+  void begin(const BoundedVector& estimate);
   void correct(const Eigen::VectorXd& reading, FaultReport& report);
   /// s_k of the sensor's mark; zero where there is none.
   void unmark(Eigen::VectorXd& reading) const;

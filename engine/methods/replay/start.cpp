@@ -25,7 +25,7 @@ Start::Start(const System& system)
       Y_(Eigen::MatrixXd::Zero(system.channels(), batch_.length())),
       U_(Eigen::MatrixXd::Zero(system.B.cols(), batch_.length())) {}
 
-std::optional<Eigen::VectorXd> Start::take(const Eigen::VectorXd& input, const Eigen::VectorXd& reading) {
+std::optional<BoundedVector> Start::take(const Eigen::VectorXd& input, const Eigen::VectorXd& reading) {
   if (!reading.allFinite() || !input.allFinite()) {
     count_ = 0;
     return std::nullopt;

@@ -15,7 +15,7 @@ class Start {
 
   /// One tick: the input that acted since the last one, and the reading; a reading that is not finite starts the count
   /// again. The estimate once n good ones are there in a row.
-  std::optional<Eigen::VectorXd> take(const Eigen::VectorXd& input, const Eigen::VectorXd& reading);
+  std::optional<BoundedVector> take(const Eigen::VectorXd& input, const Eigen::VectorXd& reading);
 
   const Batch& batch() const { return batch_; }
 

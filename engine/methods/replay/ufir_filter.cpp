@@ -22,6 +22,7 @@ class UfirFilter final : public Method {
       throw InputError("/N", "N is " + std::to_string(horizon_) + "; expected at least " +
                                  std::to_string(system_.states()) +
                                  ", as many readings as the plant has states start the filter");
+    set_gains();
   }
 
   std::unique_ptr<Method> clone() const override { return std::make_unique<UfirFilter>(*this); }
@@ -31,7 +32,7 @@ class UfirFilter final : public Method {
 
   void predict(const Eigen::VectorXd& input, FaultReport& /*report*/) override {
     input_ = input;
-    if (started_) x_ = Eigen::VectorXd(system_.A * x_ + system_.B * input_);
+    if (started_) advance(input_);
   }
 
   void measure(const Readings& readings, FaultReport& report) override {
@@ -58,16 +59,31 @@ class UfirFilter final : public Method {
   void rewire(const Graph& /*graph*/, const std::vector<LinkRates>& /*rates*/) override {}
 
  private:
+  /// They depend on no reading, only on how many came before in the horizon.
+  void set_gains() {
+    Eigen::MatrixXd G = start_.batch().G();
+    const Eigen::MatrixXd CC = system_.C.transpose() * system_.C;
+    for (int l = system_.states(); l < horizon_; ++l) {
+      const Eigen::MatrixXd AGA = system_.A * G * system_.A.transpose();
+      G = (CC + AGA.inverse()).inverse();  // both regular: A and H have full rank
+      gains_.emplace_back(G * system_.C.transpose());
+    }
+  }
+
+  void advance(const Eigen::Ref<const Eigen::VectorXd>& input) {
+    BoundedVector next = system_.B * input;
+    next.noalias() += system_.A * x_;
+    x_ = next;
+  }
+
   void filter() {
     const Eigen::Index n = system_.states();
     x_ = start_.batch().estimate(Y_.leftCols(n), U_.leftCols(n));
-    Eigen::MatrixXd G = start_.batch().G();
-    const Eigen::MatrixXd CC = system_.C.transpose() * system_.C;
     for (Eigen::Index l = n; l < count_; ++l) {
-      const Eigen::VectorXd predicted = system_.A * x_ + system_.B * U_.col(l);
-      const Eigen::MatrixXd AGA = system_.A * G * system_.A.transpose();
-      G = (CC + AGA.inverse()).inverse();  // both regular: A and H have full rank
-      x_ = predicted + G * system_.C.transpose() * (Y_.col(l) - system_.C * predicted);
+      advance(U_.col(l));
+      BoundedVector innovation = Y_.col(l);
+      innovation.noalias() -= system_.C * x_;
+      x_.noalias() += gains_[static_cast<std::size_t>(l - n)] * innovation;
     }
     started_ = true;
   }
@@ -76,8 +92,10 @@ class UfirFilter final : public Method {
   std::vector<std::string> ids_;
   Start start_;
   int horizon_, count_ = 0;
-  Eigen::MatrixXd Y_, U_;  ///< the last readings and the inputs before them, oldest first
-  Eigen::VectorXd input_, x_;
+  Eigen::MatrixXd Y_, U_;             ///< the last readings and the inputs before them, oldest first
+  std::vector<BoundedMatrix> gains_;  ///< G C' of the readings after the batch
+  Eigen::VectorXd input_;
+  BoundedVector x_;
   bool started_ = false;
 };
 
