@@ -1,0 +1,36 @@
+// The documents that docs/scenario.md shows are documents, and they run.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/engine/runs/capture.hpp"
+
+namespace vigil {
+namespace {
+
+TEST(Documentation, ScenarioExamplesRun) {
+  std::ifstream file(std::string(VIGIL_SOURCE_DIR) + "/docs/scenario.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string page = text.str();
+  const std::string open = "```json\n", close = "```";
+  int examples = 0;
+  for (std::size_t at = page.find(open); at != std::string::npos; at = page.find(open, at)) {
+    at += open.size();
+    const std::string example = page.substr(at, page.find(close, at) - at);
+    SCOPED_TRACE(example);
+    Json document = Json::parse(example);
+    if (!document.contains("time")) document["time"] = {{"steps", 20}};
+    vigil::Run run(Scenario::from_json(document), {1, nullptr, {}});
+    test::Capture capture;
+    test::run_to_end(run, capture);
+    EXPECT_EQ(run.tick(), document["time"]["steps"].get<std::int64_t>());
+    EXPECT_TRUE(run.faults().empty());
+    ++examples;
+  }
+  EXPECT_GE(examples, 2);
+}
+
+}  // namespace
+}  // namespace vigil
