@@ -6,7 +6,8 @@
 
 namespace vigil {
 
-/// Solves in the calling thread. The limit is looked at once an iteration; one iteration cannot be cut short.
+/// Solves in the calling thread, one problem at a time in a process: the library keeps state of its own. The limit is
+/// looked at once an iteration, which cannot be cut short; errors inside the library go to standard error.
 class DsdpSolver : public SdpSolver {
  public:
   std::string_view name() const override { return "DSDP"; }
