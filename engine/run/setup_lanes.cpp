@@ -1,0 +1,164 @@
+/// Lanes of a run: initial estimates, what each method may know, which plant each lane sees.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/linalg/covariance.hpp"
+#include "engine/run/recorded_lane.hpp"
+#include "engine/run/setup.hpp"
+#include "engine/run/state.hpp"
+
+namespace vigil {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+Eigen::VectorXd read_vector(const Json& value, int size, const std::string& pointer) {
+  if (!value.is_array() || static_cast<int>(value.size()) != size) {
+    throw InputError(pointer, fmt::format("expected {} numbers, one a state", size));
+  }
+  Eigen::VectorXd vector(size);
+  for (int i = 0; i < size; ++i) {
+    const Json& item = value[static_cast<std::size_t>(i)];
+    if (!item.is_number()) throw InputError(fmt::format("{}/{}", pointer, i), "expected a number");
+    vector[i] = item.get<double>();
+  }
+  return vector;
+}
+
+ScoreWindow read_window(const Json& given) {
+  ScoreWindow window;
+  window.from = given.value("from", window.from);
+  const Json to = given.value("to", Json(nullptr));
+  if (to.is_number()) window.to = to.get<std::int64_t>();
+  return window;
+}
+
+/// The document's "metrics". Throws InputError where a figure names a component that the plant has not.
+ScoreRules read_rules(const Json& metrics, const Plant& plant) {
+  ScoreRules rules;
+  rules.window = read_window(metrics.value("window", Json::object()));
+  const Json detection = metrics.value("detection", Json::object()), state = metrics.value("state", Json::object());
+  rules.detection_from = detection.value("from", rules.detection_from);
+  rules.state_from = state.value("from", rules.state_from);
+  const Json figures = metrics.value("mse", Json::object());
+  for (const auto& [name, figure] : figures.items()) {
+    const auto component = figure.at("component").get<std::string>();
+    std::vector<std::string> names;
+    for (const Component& c : plant.state()) names.push_back(c.name);
+    const auto found = std::find(names.begin(), names.end(), component);
+    if (found == names.end()) {
+      throw InputError("/metrics/mse/" + name + "/component",
+                       fmt::format("component is \"{}\", which is no state of the plant", component),
+                       fmt::format("{}", fmt::join(names, ", ")));
+    }
+    rules.mse.push_back({name, static_cast<int>(found - names.begin()), read_window(figure)});
+  }
+  return rules;
+}
+
+}  // namespace
+
+Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::MatrixXd& P0) {
+  const int n = world.plant->states();
+  Eigen::VectorXd& truth = shared.truth;
+  const Json given_truth = initial.value("truth", Json(nullptr));
+  truth = Eigen::VectorXd::Constant(n, trace ? kMissing : 0.0);
+  for (int c = 0; trace && c < n; ++c) truth[c] = trace->at(0, columns.shared.truth[static_cast<std::size_t>(c)]);
+  const bool recorded = trace && truth.allFinite();
+  if (!given_truth.is_null() && !recorded) truth = read_vector(given_truth, n, "/initial/truth");
+
+  const Json estimates = initial.value("estimates", Json(nullptr));
+  Eigen::VectorXd centre = given_truth.is_null() ? truth : read_vector(given_truth, n, "/initial/truth");
+  if (!centre.allFinite() && !estimates.is_object()) {
+    throw InputError("/initial/truth",
+                     "the trace has no truth in its first row, so initial.truth or initial.estimates must be given");
+  }
+  const Eigen::MatrixXd root = symmetric_root(P0);
+  if (initial.value("x0_random", false) && !trace) {
+    Eigen::VectorXd draw(n);
+    Draws(seed, "initial.truth").normals(0, draw);
+    truth += root * draw;
+  }
+  Eigen::MatrixXd result(n, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    if (estimates.is_object() && estimates.contains(nodes[i])) {
+      result.col(column) = read_vector(estimates[nodes[i]], n, "/initial/estimates/" + nodes[i]);
+      continue;
+    }
+    if (!centre.allFinite())
+      throw InputError("/initial/estimates",
+                       fmt::format("node \"{}\" has no initial estimate and the trace no truth", nodes[i]));
+    Eigen::VectorXd draw(n);
+    Draws(seed, "initial." + nodes[i]).normals(0, draw);
+    result.col(column) = centre;
+    if (!estimates.is_string()) result.col(column) += root * draw;  // "truth": exactly there
+  }
+  return result;
+}
+
+/// Which plant a lane sees. A trace with readings of the lane's own takes the place of the plant it would control; one
+/// without drives it open loop, and what its sensors add is added to the trace's readings.
+Contender::Side Run::State::side_of(const std::string& lane, const Method& method) const {
+  if (trace && course_columns("lane." + lane + ".").readings) return Contender::Side::recorded;
+  if (trace) return method.marks() ? Contender::Side::marked : Contender::Side::shared;
+  if (world.controller) return Contender::Side::closed;
+  return method.marks() || method.detects() ? Contender::Side::marked : Contender::Side::shared;
+}
+
+void Run::State::set_lanes(const Json& document) {
+  const int n = world.plant->states();
+  const Json& noise_document = document["noise"];
+  Knowledge knowledge;
+  knowledge.plant = world.plant;
+  knowledge.dt = dt;
+  knowledge.seed = seed;
+  knowledge.sensors = world.sensors;
+  knowledge.nodes = nodes;
+  knowledge.graph = graph;
+  knowledge.Q = read_covariance(noise_document.at("Q"), n, "/noise/Q", Definiteness::semidefinite);
+  knowledge.P0 = read_covariance(noise_document.at("P0"), n, "/noise/P0", Definiteness::semidefinite);
+  knowledge.Mw = read_covariance(noise_document.value("Mw", Json(0)), n, "/noise/Mw", Definiteness::semidefinite);
+  knowledge.estimates = initial_estimates(document.value("initial", Json::object()), knowledge.P0);
+  const std::vector<LinkRates> published = adversary.rates(graph);
+  const ScoreRules rules = read_rules(document.value("metrics", Json::object()), *world.plant);
+  for (const auto& [id, lane] : document["lanes"].items()) {
+    if (!lane.value("enabled", true)) continue;
+    const std::string pointer = "/lanes/" + id;
+    LaneOptions options;
+    options.id = id;
+    options.method_id = lane["method"].get<std::string>();
+    options.spared = !lane.value("adversary", true);
+    options.monitor = lane.value("path", "loop") == "monitor";
+    options.last = last_tick;
+    options.params = lane["params"];
+    options.rules = rules;
+    knowledge.monitor = options.monitor;
+    knowledge.rates = options.spared ? std::vector<LinkRates>(published.size()) : published;
+    const auto& entry = entry_of<MethodMake>(options.method_id, pointer + "/method");
+    auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
+    options.side = side_of(id, *made);
+    lanes.emplace_back(std::move(options), std::move(made), world, graph);
+  }
+  if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");
+  for (const Lane& lane : lanes) {
+    if (trace) columns.lanes.push_back(course_columns("lane." + lane.id() + "."));
+  }
+}
+
+void Run::State::set_recorded_lanes() {
+  const ScoreRules rules = read_rules(scenario.document().value("metrics", Json::object()), *world.plant);
+  for (auto& recorded : find_recorded_lanes(trace, scenario.document()["lanes"], *world.plant)) {
+    LaneOptions options;
+    options.id = recorded.lane;
+    options.method_id = "recorded";
+    options.spared = true;
+    options.params = Json::object();
+    options.rules = rules;
+    lanes.emplace_back(std::move(options), std::move(recorded.method), world, graph);
+  }
+}
+
+}  // namespace vigil
