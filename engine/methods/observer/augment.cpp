@@ -56,6 +56,7 @@ Matrix left_inverse(const Subsystem& s) {
   const Matrix of_g = pseudo_inverse(s.G);
   Matrix inverse = Matrix::Zero(n + g, n + p);
   inverse.topLeftCorner(n, n).setIdentity();
+  if (g == 0) return inverse;
   inverse.bottomLeftCorner(g, n) = -of_g * s.C;
   inverse.bottomRightCorner(g, p) = s.E.transpose().fullPivLu().solve(of_g.transpose()).transpose();
   return inverse;
