@@ -15,9 +15,17 @@ export class RunsList {
   problem = $state.raw<unknown>(null);
   #query = { q: '', sort: '' };
   #abort = new AbortController();
+  /** Settled once no page is on its way. */
+  #arrived: Promise<void> = Promise.resolve();
+  /** Settled once what was heard so far is in the list. */
+  #told: Promise<void> = Promise.resolve();
 
   /** The first page for another query or order. */
-  async load(q: string, sort: string): Promise<void> {
+  load(q: string, sort: string): Promise<void> {
+    return (this.#arrived = this.#load(q, sort));
+  }
+
+  async #load(q: string, sort: string): Promise<void> {
     this.#query = { q, sort };
     this.#abort.abort();
     const abort = (this.#abort = new AbortController());
@@ -42,12 +50,16 @@ export class RunsList {
   }
 
   /** The page after what is there. */
-  async more(): Promise<void> {
-    if (this.next === null || this.loading) return;
+  more(): Promise<void> {
+    if (this.next === null || this.loading) return Promise.resolve();
+    return (this.#arrived = this.#more(this.next));
+  }
+
+  async #more(cursor: string): Promise<void> {
     const abort = this.#abort;
     this.loading = true;
     try {
-      const page = await api.runs({ ...this.#query, limit: kPage, cursor: this.next }, abort.signal);
+      const page = await api.runs({ ...this.#query, limit: kPage, cursor }, abort.signal);
       if (abort.signal.aborted) return;
       this.items = appended(this.items, page.items);
       this.next = page.next;
@@ -59,8 +71,18 @@ export class RunsList {
     this.loading = false;
   }
 
-  /** Something happened to a run: its row becomes what the server says now; a new run shows where the list is newest first. */
-  async heard(note: RunNote): Promise<void> {
+  /**
+   * Something happened to a run: its row becomes what the server says now; a new run shows where the list is newest first.
+   * One note after the other, and none while a page is on its way: that page may have been made before the note.
+   */
+  heard(note: RunNote): Promise<void> {
+    return (this.#told = this.#told.then(async () => {
+      await this.#arrived;
+      await this.#hear(note);
+    }));
+  }
+
+  async #hear(note: RunNote): Promise<void> {
     const known = this.items.find((item) => item.id === note.id);
     if (note.state === 'deleted') {
       this.drop(new Set([note.id]));
@@ -69,14 +91,17 @@ export class RunsList {
       this.put({ ...known, progress: { ...known.progress, k, t, ticks_per_second } });
     } else if (known) {
       await this.#fetch(note.id);
-    } else if (this.#query.q === '' && this.#query.sort === '' && !this.loading) {
+    } else if (this.#query.q === '' && this.#query.sort === '') {
       await this.#newest();
     }
   }
 
+  /** A load that begins meanwhile knows more than this answer. */
   async #fetch(id: string): Promise<void> {
+    const abort = this.#abort;
     try {
-      this.put(await api.run(id));
+      const run = await api.run(id);
+      if (!abort.signal.aborted) this.put(run);
     } catch (error) {
       if (error instanceof ApiProblem && error.status === 404) this.drop(new Set([id]));
     }
