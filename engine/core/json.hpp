@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;  // compiled once, in json.cpp
+
 namespace vigil {
 
 using Json = nlohmann::ordered_json;

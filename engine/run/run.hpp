@@ -56,6 +56,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   std::shared_ptr<const Trace> trace;  ///< takes the place of the world; may be null
   std::vector<Command> commands;       ///< of an earlier run that is repeated
+  Json designs = Json::object();       ///< {"<lane>":record} for every task of design_tasks(); see run/design.hpp
 };
 
 /// A value: a copy is a fork that goes on by itself.

@@ -6,7 +6,7 @@
 #include <complex>
 #include <vector>
 
-#include "engine/methods/observer/network.hpp"
+#include "engine/world/interconnected/network.hpp"
 
 namespace vigil::observer {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/methods/observer/augment.hpp"
-#include "engine/methods/observer/rk4.hpp"
-#include "engine/methods/observer/signals.hpp"
+#include "engine/world/interconnected/rk4.hpp"
+#include "engine/world/interconnected/signals.hpp"
 
 namespace vigil::observer {
 

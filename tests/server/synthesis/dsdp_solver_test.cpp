@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "engine/methods/observer/examples.hpp"
+#include "engine/world/interconnected/examples.hpp"
 #include "engine/methods/observer/synthesis.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 

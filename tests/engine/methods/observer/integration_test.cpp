@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/methods/observer/examples.hpp"
-#include "engine/methods/observer/rk4.hpp"
+#include "engine/world/interconnected/examples.hpp"
+#include "engine/world/interconnected/rk4.hpp"
 
 namespace vigil::observer {
 namespace {

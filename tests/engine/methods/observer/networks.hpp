@@ -5,7 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "engine/methods/observer/examples.hpp"
+#include "engine/methods/observer/printed_gains.hpp"
+#include "engine/world/interconnected/examples.hpp"
 #include "engine/methods/observer/simulation.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/methods/observer/signals.hpp"
+#include "engine/world/interconnected/signals.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "engine/methods/observer/network.hpp"
+#include "engine/world/interconnected/network.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "engine/methods/observer/examples.hpp"
+#include "engine/world/interconnected/examples.hpp"
 
 #include <numbers>
 
@@ -112,14 +112,6 @@ Example pair() {
   e.signals = {signals_of_first(), signals_of_second()};
   e.horizon = 20;
   return e;
-}
-
-Gains printed_gains() {
-  const Matrix L1 = 1e4 * rows(6, {-.0037, .2301, -.0337, .0001, .0026, -.0004, -.0104, .0225, .0013, -.0017, -.0529,
-                                   .0089, .0140, -.2538, .0326, .3748, -6.7778, .8703});
-  const Matrix L2 = rows(5, {-2.4302, 27.6955, 37.8731, 19.0229, 15.6234, 1.1199, -15.6263, 20.8778, 42.2655, -5.4285,
-                             -29.6888, -32.9860, -4.5351, -284.1874, -360.2424});
-  return {L1, L2};
 }
 
 Example areas(AreaOutputs outputs, Topology topology, bool attack_area_2) {

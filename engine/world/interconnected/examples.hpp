@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/methods/observer/augment.hpp"
-#include "engine/methods/observer/network.hpp"
-#include "engine/methods/observer/signals.hpp"
+#include "engine/world/interconnected/network.hpp"
+#include "engine/world/interconnected/signals.hpp"
 
 namespace vigil::observer {
 
@@ -21,8 +20,6 @@ struct Example {
 
 /// Example 3.1, two subsystems. Section 8.1.
 Example pair();
-/// The gains of the paper: stable and certified, but blind to the attacks; four digits, so never a design to work with.
-Gains printed_gains();
 
 enum class AreaOutputs { case_1, case_2 };  ///< of areas 2 and 4; case 2 breaks the matching condition
 enum class Topology { full, ring };

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/linalg/care.hpp"
-#include "engine/methods/observer/network.hpp"
+#include "engine/world/interconnected/network.hpp"
 
 namespace vigil::observer {
 namespace {

@@ -1,0 +1,2 @@
+#define VIGIL_INSTANCE template
+#include "engine/linalg/instances.hpp"
