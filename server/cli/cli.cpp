@@ -27,7 +27,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_name() == argv[1]) return {};
-    names.push_back(command->get_name());
+    if (!command->get_group().empty()) names.push_back(command->get_name());
   }
   return "there is no command " + in_quotes(argv[1]) + "; expected one of " + listed(names);
 }
@@ -62,6 +62,7 @@ int run_command_line(int argc, char** argv) {
   add_lists(app, action);
   add_trace(app, action);
   add_db(app, action);
+  add_solver(app, action);
   if (const std::string sentence = unknown_command(app, argc, argv); !sentence.empty())
     return complain(sentence, kBadInput);
   try {
