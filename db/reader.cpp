@@ -136,6 +136,20 @@ std::optional<std::string> LogReader::trace_csv(std::int64_t id) const {
   return decompress_text(query.bytes(0));
 }
 
+std::optional<DesignRow> LogReader::design(const std::string& key) const {
+  const auto database = state_->lease();
+  auto query = database->cached("SELECT key,lane,record,created FROM design WHERE key=?");
+  if (!query.bind(1, key).step()) return std::nullopt;
+  return DesignRow{query.text(0), query.text(1), Json::parse(query.text(2)), query.integer(3)};
+}
+
+std::optional<std::string> LogReader::design_problem(const std::string& key) const {
+  const auto database = state_->lease();
+  auto query = database->cached("SELECT problem FROM design WHERE key=?");
+  if (!query.bind(1, key).step()) return std::nullopt;
+  return decompress_text(query.bytes(0));
+}
+
 std::vector<CampaignRow> LogReader::campaigns() const {
   const auto database = state_->lease();
   auto query = database->cached(kCampaignColumns + "ORDER BY id DESC");

@@ -100,7 +100,9 @@ class LogReader {
   std::vector<CampaignRow> campaigns() const;  ///< newest first
   std::optional<CampaignRow> campaign(std::int64_t id) const;
   std::vector<TrialRow> trials(std::int64_t campaign) const;
-  Json setting(const std::string& key) const;  ///< null: not set
+  std::optional<DesignRow> design(const std::string& key) const;
+  std::optional<std::string> design_problem(const std::string& key) const;  ///< the text that was stored with it
+  Json setting(const std::string& key) const;                               ///< null: not set
   LogCounts counts() const;
 
  private:

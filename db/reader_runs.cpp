@@ -79,12 +79,13 @@ std::vector<Command> read_commands(Database& database, RunId run) {
 }
 
 void read_document(Database& database, RunRow& row) {
-  auto query = database.cached("SELECT body,design,world,warnings FROM document WHERE run=?");
+  auto query = database.cached("SELECT body,design,world,warnings,designs FROM document WHERE run=?");
   if (!query.bind(1, row.id).step()) return;
   row.document = Json::parse(query.text(0));
   if (!query.null(1)) row.design = Json::parse(query.text(1));
   if (!query.null(2)) row.world = Json::parse(query.text(2));
   row.warnings = Json::parse(query.text(3)).get<std::vector<std::string>>();
+  if (!query.null(4)) row.designs = Json::parse(query.text(4));
 }
 
 void bind_value(Statement& query, int index, const Query::Value& value) {

@@ -62,6 +62,7 @@ struct RunRecord {
   std::optional<double> keep;  ///< s of wall time its samples are kept; empty: as long as the run
   bool reproducible = true;
   std::string state = "queued";
+  Json designs;                  ///< {"<lane>":record} that it is made with; null: none, or not yet
   std::string idempotency_key;   ///< empty: none
   std::string idempotency_hash;  ///< of the request's body
 };
@@ -75,6 +76,7 @@ struct RunUpdate {
   std::optional<std::vector<MetricValue>> metrics;
   std::optional<std::vector<FaultCount>> faults;
   std::optional<Json> design;
+  std::optional<Json> designs;
   std::optional<std::vector<std::string>> warnings;
   std::optional<std::vector<std::string>> tags;
   std::optional<std::string> note;
@@ -119,8 +121,9 @@ struct RunRow {
 
   std::vector<MetricValue> metrics;
   Json document;
-  Json design;  ///< null: none
-  Json world;   ///< null: none
+  Json design;   ///< null: none
+  Json designs;  ///< {"<lane>":record} that it was made with; null: none
+  Json world;    ///< null: none
   std::vector<std::string> warnings;
   std::vector<FaultCount> faults;
   std::vector<Command> commands;
@@ -146,6 +149,14 @@ struct TraceRow {
   std::int64_t rows = 0;
   std::vector<std::string> columns;
   std::int64_t bytes = 0;  ///< of the CSV text
+  WallTime created = 0;
+};
+
+/// Gains that were found for a problem, or the proof that there are none.
+struct DesignRow {
+  std::string key;   ///< of the problem
+  std::string lane;  ///< that asked first
+  Json record;
   WallTime created = 0;
 };
 

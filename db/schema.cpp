@@ -76,7 +76,15 @@ CREATE TABLE idempotency(
 CREATE INDEX idempotency_by_run ON idempotency(run);
 )sql";
 
-const char* const kMigrations[kSchemaVersion] = {kVersion1};
+// Gains: those that a run was made with, and all that were found, by the problem they answer.
+const char* const kVersion2 = R"sql(
+ALTER TABLE document ADD COLUMN designs TEXT;
+CREATE TABLE design(
+  key TEXT PRIMARY KEY, lane TEXT NOT NULL, record TEXT NOT NULL, problem BLOB NOT NULL, created INTEGER NOT NULL);
+CREATE INDEX design_by_age ON design(created);
+)sql";
+
+const char* const kMigrations[kSchemaVersion] = {kVersion1, kVersion2};
 
 [[noreturn]] void unusable(const std::string& sentence) { throw LogError(LogError::Kind::unusable, sentence); }
 

@@ -60,7 +60,8 @@ RunId insert_run(Database& database, const RunRecord& r, WallTime now) {
            to_string(r.policy), r.keep, r.reproducible, r.document_hash)
       .run();
   const RunId id = database.last_id();
-  database.cached("INSERT INTO document(run,body) VALUES(?,?)").all(id, dump(r.document)).run();
+  const auto designs = r.designs.is_null() ? std::nullopt : std::optional(dump(r.designs));
+  database.cached("INSERT INTO document(run,body,designs) VALUES(?,?,?)").all(id, dump(r.document), designs).run();
   if (!r.idempotency_key.empty()) {
     database.cached("INSERT OR REPLACE INTO idempotency(key,hash,run,created) VALUES(?,?,?,?)")
         .all(r.idempotency_key, r.idempotency_hash, id, now)
@@ -100,6 +101,7 @@ void apply_update(Database& database, RunId run, const RunUpdate& u) {
   set_column(database, run, "UPDATE run SET reproducible=? WHERE id=?", u.reproducible, same);
   set_column(database, run, "UPDATE document SET body=? WHERE run=?", u.document, json);
   set_column(database, run, "UPDATE document SET design=? WHERE run=?", u.design, json);
+  set_column(database, run, "UPDATE document SET designs=? WHERE run=?", u.designs, json);
   set_column(database, run, "UPDATE document SET world=? WHERE run=?", u.world, json);
   set_column(database, run, "UPDATE document SET warnings=? WHERE run=?", u.warnings, json);
   if (u.metrics) replace_metrics(database, run, *u.metrics);

@@ -79,6 +79,8 @@ class LogWriter {
                          const std::vector<std::string>& columns);
   bool delete_trace(std::int64_t id);
   void set_setting(const std::string& key, const Json& value);
+  /// Keeps the newest 500. `problem` is a text, stored compressed; a key that is known is replaced.
+  void put_design(const std::string& key, const std::string& lane, const Json& record, std::string_view problem);
   std::int64_t create_campaign(const Json& request, std::int64_t trials);
   void update_campaign(std::int64_t id, const std::string& state, const Json& result, const std::string& error = {});
   void add_trial(std::int64_t campaign, const TrialRow& trial);

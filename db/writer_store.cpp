@@ -6,6 +6,10 @@
 
 namespace vigil {
 
+namespace {
+constexpr int kDesignsKept = 500;
+}
+
 void LogWriter::put_scenario(const std::string& id, const Json& document) {
   const WallTime now = state_->now();
   state_->commit_now([&](Database& database) {
@@ -57,6 +61,19 @@ bool LogWriter::delete_trace(std::int64_t id) {
 void LogWriter::set_setting(const std::string& key, const Json& value) {
   state_->commit_now([&](Database& database) {
     database.cached("INSERT OR REPLACE INTO setting(key,value) VALUES(?,?)").all(key, dump(value)).run();
+  });
+}
+
+void LogWriter::put_design(const std::string& key, const std::string& lane, const Json& record,
+                           std::string_view problem) {
+  const std::string packed = compress_text(problem);
+  const WallTime now = state_->now();
+  state_->commit_now([&](Database& database) {
+    auto insert = database.cached("INSERT OR REPLACE INTO design(key,lane,record,created,problem) VALUES(?,?,?,?,?)");
+    insert.all(key, lane, dump(record), now).blob(5, packed).run();
+    database.cached("DELETE FROM design WHERE key NOT IN(SELECT key FROM design ORDER BY created DESC LIMIT ?)")
+        .bind(1, kDesignsKept)
+        .run();
   });
 }
 

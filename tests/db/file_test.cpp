@@ -118,6 +118,28 @@ TEST(File, OpenRunsOfAnEndedServerAreInterrupted) {
   EXPECT_TRUE(check_log(path).ok);
 }
 
+TEST(File, AnOlderSchemaIsBroughtUpToDateWithItsRuns) {
+  const Folder folder;
+  const std::string path = folder.file("a.db");
+  RunId run = 0;
+  {
+    LogWriter writer(path);
+    Recorder recorder(writer, 3);
+    recorder.write(0, 99);
+    recorder.finish();
+    run = recorder.id;
+  }
+  raw_sql(path, "DROP TABLE design; ALTER TABLE document DROP COLUMN designs; PRAGMA user_version=1");
+  EXPECT_NE(std::string::npos, refusal([&] { LogReader reader(path); }).find("older schema"));
+  LogWriter writer(path);
+  const LogReader reader(path);
+  EXPECT_EQ("finished", reader.run(run)->state);
+  EXPECT_TRUE(reader.run(run)->designs.is_null());
+  writer.put_design("0123456789abcdef", "a", {{"holds", true}}, "a problem");
+  EXPECT_TRUE(reader.design("0123456789abcdef"));
+  EXPECT_TRUE(check_log(path).ok);
+}
+
 TEST(File, ABackupOfABusyLogOpensAndChecks) {
   const Folder folder;
   LogWriter writer(folder.file("a.db"));
