@@ -13,6 +13,8 @@ HTMLDialogElement.prototype.close ??= function (this: HTMLDialogElement) {
   this.open = false;
 };
 
+Element.prototype.scrollIntoView ??= () => {};
+
 class QuietObserver {
   observe(): void {}
   unobserve(): void {}

@@ -3,7 +3,7 @@ import type uPlot from 'uplot';
 import { decimate, type Series } from '../data/series';
 import { plotHeight, plotWidth, type Geometry } from './geometry';
 import type { Line } from './scroll_chart';
-import { extent, fit, type Scale } from './scale';
+import { countedFrom, extent, fit, type Scale } from './scale';
 
 type Table = [number[], (number | null)[]];
 
@@ -41,6 +41,8 @@ export class HeldChart {
     private readonly log: boolean,
     private readonly ready: () => void,
     private readonly middle = 0,
+    /** Values before this tick do not stretch the scale. */
+    private readonly settled = 0,
   ) {
     this.scale = fit(null, log, middle);
   }
@@ -55,7 +57,7 @@ export class HeldChart {
     if (state === this.drawn) return true;
     const width = plotWidth(g);
     const all = lines.map((line) => decimate(line.get(g.from, g.to), Math.ceil(width)));
-    this.scale = fit(extent(all, g.from, g.to, this.log), this.log, this.middle);
+    this.scale = fit(extent(all, countedFrom(g.from, g.to, this.settled), g.to, this.log), this.log, this.middle);
     const tables = all.map((series) => tableOf(series, this.log)).map(([x, y]) => [x, y] as uPlot.AlignedData);
     const data: uPlot.AlignedData = tables.length ? this.library.join(tables) : [[]];
     this.clear();

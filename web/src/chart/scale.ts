@@ -37,6 +37,11 @@ export function extent(all: readonly Series[], from: number, to: number, positiv
   return lo <= hi ? { lo, hi } : null;
 }
 
+/** Whence the values of a window count for its scale: from `settled` on where the window goes well beyond it, else all of them. */
+export function countedFrom(from: number, to: number, settled: number): number {
+  return settled > from && to > 1.5 * settled ? settled : from;
+}
+
 /** A scale that holds the values with some room: whole decade halves when logarithmic, so that it changes seldom. */
 export function fit(values: { lo: number; hi: number } | null, log: boolean, middle = 0): Scale {
   if (middle) return { log: false, middle, lo: -beyond(-(values?.lo ?? 0), middle), hi: beyond(values?.hi ?? 0, middle) };

@@ -2,7 +2,7 @@
 import type { Series } from '../data/series';
 import { prepare } from './axes';
 import { plotHeight, plotWidth, type Geometry } from './geometry';
-import { extent, fit, fraction, outside, type Scale } from './scale';
+import { countedFrom, extent, fit, fraction, outside, type Scale } from './scale';
 
 export interface Line {
   key: string;
@@ -30,6 +30,8 @@ export class ScrollChart {
   constructor(
     private readonly log: boolean,
     private readonly middle = 0,
+    /** Values before this tick do not stretch the scale. */
+    private readonly settled = 0,
   ) {
     this.scale = fit(null, log, middle);
   }
@@ -60,7 +62,7 @@ export class ScrollChart {
     const context = prepare(canvas, plotWidth(g), plotHeight(g));
     if (!context) return;
     const all = lines.map((line) => line.get(g.from, g.to));
-    this.scale = fit(extent(all, g.from, g.to, this.log), this.log, this.middle);
+    this.scale = fit(extent(all, countedFrom(g.from, g.to, this.settled), g.to, this.log), this.log, this.middle);
     context.setTransform(1, 0, 0, 1, 0, 0);
     this.lengths.clear();
     this.drawn.clear();
@@ -77,7 +79,7 @@ export class ScrollChart {
     if (!context) return false;
     const fresh = lines.map((line) => line.get(this.drawn.get(line.key) ?? p.to, p.to));
     for (const series of fresh) {
-      for (let i = 0; i < series.k.length; i++) if (outside(this.scale, series.hi[i]!) || outside(this.scale, series.lo[i]!)) return false;
+      for (let i = 0; i < series.k.length; i++) if (series.k[i]! >= this.settled && (outside(this.scale, series.hi[i]!) || outside(this.scale, series.lo[i]!))) return false;
     }
     context.setTransform(1, 0, 0, 1, 0, 0);
     if (p.shift > 0) {

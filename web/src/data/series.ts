@@ -116,6 +116,24 @@ export function difference(a: Series, b: Series): Series {
   return { k: k.subarray(0, length), lo: low, hi: raw ? low : hi.subarray(0, length), joined: joined.subarray(0, length) };
 }
 
+/**
+ * a - b of two signals that move together. Of reduced samples of the same ticks the difference of their least and of their
+ * greatest values: both lie within the true difference's range, however far the two moved between two points.
+ */
+export function closeDifference(a: Series, b: Series): Series {
+  const same = a.lo !== a.hi && a.k.length === b.k.length && a.k.every((k, i) => k === b.k[i]);
+  if (!same) return difference(a, b);
+  const low = a.lo.map((v, i) => v - b.lo[i]!);
+  const high = a.hi.map((v, i) => v - b.hi[i]!);
+  return { k: a.k, lo: low.map((v, i) => Math.min(v, high[i]!)), hi: high.map((v, i) => Math.max(v, low[i]!)), joined: a.joined };
+}
+
+/** Absolute values; of reduced samples the greatest of each bucket. */
+export function magnitude(series: Series): Series {
+  const size = series.lo.map((v, i) => Math.max(Math.abs(v), Math.abs(series.hi[i]!)));
+  return { ...series, lo: size, hi: size };
+}
+
 /** The newest value at or before tick k, no older than `reach` ticks; NaN if none. */
 export function valueAt(series: Series, k: number, reach = Infinity): number {
   let low = 0;

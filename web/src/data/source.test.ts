@@ -47,6 +47,21 @@ describe('where samples come from', () => {
     source.close();
   });
 
+  it('every tick of a wide window for what is made of two signals; of a run that goes on its extremes', async () => {
+    const fetchSamples = vi.fn(async (query: Parameters<typeof answer>[0]) => answer(query));
+    const source = new Source('1', signals, () => {}, fetchSamples);
+    source.head = 9999;
+    source.exact('a', 0, 9999);
+    await vi.advanceTimersByTimeAsync(100);
+    expect(source.exact('a', 0, 9999).k).toHaveLength(10_000);
+    expect(fetchSamples.mock.calls[0]![0].points).toBeGreaterThan(10_000);
+    source.growing = true;
+    source.exact('b', 0, 9999);
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(fetchSamples.mock.calls.at(-1)![0].points).toBeLessThan(10_000);
+    source.close();
+  });
+
   it('every tick about a cursor, however wide the window: neither drives the other away', async () => {
     const fetchSamples = vi.fn(async (query: Parameters<typeof answer>[0]) => answer(query));
     const source = new Source('1', signals, () => {}, fetchSamples);

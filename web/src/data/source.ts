@@ -10,6 +10,9 @@ import { signalsPerCall, WindowLoader, windowPoints } from './window_loader';
 
 /** Ticks fetched about a single tick start and end at multiples of this: a cursor that moves a little finds them there. */
 const block = 64;
+/** Ticks of the widest window that is fetched tick by tick, and signals of it that one call may ask for. */
+const widest = 25_000;
+const exactSignalsPerCall = 20;
 
 type FetchSamples = (query: { signals: string; from: number; to: number; points: number }, signal: AbortSignal) => Promise<Samples>;
 
@@ -25,6 +28,7 @@ export class Source {
 
   private readonly windows: WindowLoader;
   private readonly states: WindowLoader;
+  private readonly exacts: WindowLoader;
 
   constructor(
     readonly run: string,
@@ -34,8 +38,9 @@ export class Source {
     now: () => number = () => performance.now(),
   ) {
     this.byName = new Map(signals.map((signal) => [signal.name, signal]));
+    const fetching = (points: number) => (names: readonly string[], from: number, to: number, signal: AbortSignal) => this.fetchSamples({ signals: this.idsOf(names), from, to, points }, signal);
     const common = {
-      fetch: (names: readonly string[], from: number, to: number, signal: AbortSignal) => this.fetchSamples({ signals: this.idsOf(names), from, to, points: windowPoints }, signal),
+      fetch: fetching(windowPoints),
       head: () => this.head,
       growing: () => this.growing,
       loaded: () => this.touch(),
@@ -49,15 +54,17 @@ export class Source {
       },
     });
     this.states = new WindowLoader({ ...common, widen: (from, to) => ({ from: Math.floor(from / block) * block, to: Math.ceil((to + 1) / block) * block }) });
+    this.exacts = new WindowLoader({ ...common, fetch: fetching(2 * widest), signalsPerCall: exactSignalsPerCall, widen: (from, to) => ({ from, to }) });
   }
 
   get failure(): unknown {
-    return this.windows.failure ?? this.states.failure;
+    return this.windows.failure ?? this.states.failure ?? this.exacts.failure;
   }
 
   close(): void {
     this.windows.close();
     this.states.close();
+    this.exacts.close();
   }
 
   touch(): void {
@@ -72,7 +79,7 @@ export class Source {
 
   /** Changes when what is drawn of a window up to tick `to` may have changed: not with every new tick beyond it. */
   stamp(to: number): string {
-    return `${this.windows.fetchedAt} ${this.inserts} ${this.rings.length} ${Math.min(this.head, Math.ceil(to) + 1)}`;
+    return `${this.windows.fetchedAt} ${this.exacts.fetchedAt} ${this.inserts} ${this.rings.length} ${Math.min(this.head, Math.ceil(to) + 1)}`;
   }
 
   /** The ring that carries a signal, and its column. */
@@ -89,6 +96,13 @@ export class Source {
   /** A signal over the window that is looked at. What is not known yet is asked for, and comes with a later drawing. */
   get(name: string, from: number, to: number): Series {
     return this.read(this.windows, name, from, to);
+  }
+
+  /** Every tick of a window, for what is made of two signals: their extremes would not do. Of a run that goes on, or a window too wide for that, extremes all the same. */
+  exact(name: string, from: number, to: number): Series {
+    const wide = Math.min(to, this.head) - Math.max(0, from);
+    const loader = this.growing || wide <= 0.8 * windowPoints || wide > widest ? this.windows : this.exacts;
+    return this.read(loader, name, from, to);
   }
 
   /** A signal about a single tick, or a short way up to it: every tick, however wide the window is. */

@@ -30,6 +30,8 @@ export interface LoaderOptions {
   growing: () => boolean;
   loaded: () => void;
   now: () => number;
+  /** Signals that one call may ask for. */
+  signalsPerCall?: number;
   /** The window that is fetched for a wish: somewhat more, so that a small move needs no call. */
   widen: (from: number, to: number) => { from: number; to: number };
 }
@@ -116,8 +118,9 @@ export class WindowLoader {
   private async fetchTable(names: readonly string[], from: number, to: number): Promise<Table> {
     const series = new Map<string, Series>();
     let raw = true;
-    for (let i = 0; i < names.length; i += signalsPerCall) {
-      const part = names.slice(i, i + signalsPerCall);
+    const each = this.options.signalsPerCall ?? signalsPerCall;
+    for (let i = 0; i < names.length; i += each) {
+      const part = names.slice(i, i + each);
       for (const [name, one] of samplesSeries(await this.options.fetch(part, from, to, this.abort.signal))) {
         series.set(name, one);
         raw &&= one.lo === one.hi;

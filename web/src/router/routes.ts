@@ -20,6 +20,7 @@ export const routes: Route[] = [
   { pattern: '/runs/:id', section: 'runs', load: () => import('../pages/live/LivePage.svelte') },
   { pattern: '/scenarios', section: 'scenarios', load: () => import('../pages/scenarios/ScenariosPage.svelte') },
   { pattern: '/scenarios/:id', section: 'scenarios', load: () => import('../pages/scenarios/ScenarioPage.svelte') },
+  { pattern: '/system', section: 'scenarios', load: () => import('../pages/system/SystemPage.svelte') },
   { pattern: '/about', section: 'about', load: () => import('../pages/about/AboutPage.svelte') },
 ];
 

@@ -1,4 +1,5 @@
-import { difference, type Series } from '../../data/series';
+import { closeDifference, difference, type Series } from '../../data/series';
+import type { Source } from '../../data/source';
 
 /** A line of a chart: which signal, how it is drawn, how it is called. */
 export interface LineSpec {
@@ -13,6 +14,8 @@ export interface LineSpec {
   map?: (series: Series) => Series;
   /** A signal that is taken away, tick by tick. */
   minus?: string;
+  /** The two move together, so far between two points of a wide window that only every tick tells their difference. */
+  close?: boolean;
   /** No stream of this page carries it. */
   unstreamed?: boolean;
   strong?: boolean;
@@ -27,6 +30,11 @@ export function squared(series: Series): Series {
 /** The values that a line draws. */
 export function readLine(line: LineSpec, read: (signal: string) => Series): Series {
   const own = read(line.signal);
-  const series = line.minus ? difference(own, read(line.minus)) : own;
+  const series = line.minus ? (line.close ? closeDifference : difference)(own, read(line.minus)) : own;
   return line.map ? line.map(series) : series;
+}
+
+/** The values of a line in a window, from wherever they are. */
+export function lineOf(line: LineSpec, source: Source, from: number, to: number): Series {
+  return readLine(line, (name) => (line.close ? source.exact(name, from, to) : source.get(name, from, to)));
 }

@@ -15,6 +15,7 @@ import ErrorPanel from './ErrorPanel.svelte';
 import EventsPanel from './EventsPanel.svelte';
 import FeasiblePanel from './FeasiblePanel.svelte';
 import type { RunModel } from './model';
+import { hasSubsystems } from './observer/subsystems';
 import PlanePanel from './PlanePanel.svelte';
 import FusionPanel from './fusion/FusionPanel.svelte';
 import { gameOf } from './fusion/game';
@@ -32,7 +33,9 @@ import Table2Panel from './sparse_table/Table2Panel.svelte';
 
 export interface PanelEntry {
   name: string;
-  component: Component;
+  /** The panel itself, or how it is fetched: what few runs have need not be there for all. */
+  component?: Component;
+  load?: () => Promise<{ default: Component }>;
   /** Whether the run has what the panel shows: decided by its family, its signals and the hints of its scenario. */
   applies: (run: RunDetail, model: RunModel) => boolean;
   /** Columns of twelve, and rows, on a wide screen. */
@@ -44,15 +47,21 @@ export interface PanelEntry {
 
 const consensus = (run: RunDetail): boolean => run.family === 'consensus';
 const detects = (run: RunDetail, model: RunModel): boolean => aboutDetectors(run) && detectorsOf(model, null).length > 0;
+const subsystems = (_: RunDetail, model: RunModel): boolean => hasSubsystems(model);
 const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
 
 export const panels: readonly PanelEntry[] = [
+  { name: 'state-errors', load: () => import('./observer/StateErrorsPanel.svelte'), wide: [5, 1], middle: [12, 1], narrow: 420, applies: subsystems },
+  { name: 'attack-fault', load: () => import('./observer/AttackFaultPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 560, applies: subsystems },
+  { name: 'methods', load: () => import('./observer/ComparisonPanel.svelte'), wide: [8, 1], middle: [12, 1], narrow: 620, applies: subsystems },
+  { name: 'subsystems', load: () => import('./observer/NetworkPanel.svelte'), wide: [4, 1], middle: [6, 1], narrow: 300, applies: subsystems },
+  { name: 'design', load: () => import('./observer/DesignPanel.svelte'), wide: [8, 1], middle: [6, 1], narrow: 460, applies: subsystems },
   { name: 'detector', component: DetectorPanel, wide: [7, 2], middle: [12, 1], narrow: 480, applies: detects },
   { name: 'whatif', component: WhatIfPanel, wide: [5, 1], middle: [6, 1], narrow: 280, applies: detects },
   { name: 'profile', component: ProfilePanel, wide: [5, 1], middle: [6, 1], narrow: 330, applies: (run) => aboutDetectors(run) },
   { name: 'rates', component: RatesPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: detects },
   { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: (run, model) => consensus(run) || (!!model.plane && !run.view.space) },
-  { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
+  { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && !hasSubsystems(model) && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
   { name: 'raster', component: RasterPanel, wide: [7, 1], middle: [6, 1], narrow: 340, applies: (run) => consensus(run) },
   { name: 'feasible', component: FeasiblePanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || anyLane(model, (lane) => lane.feasible28.size) },
   { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && anyLane(model, (lane) => lane.bound.size)) },
@@ -64,7 +73,7 @@ export const panels: readonly PanelEntry[] = [
   { name: 'table2', component: Table2Panel, wide: [4, 2], middle: [12, 1], narrow: 560, applies: (run) => hasTable(run) },
   { name: 'fusion', component: FusionPanel, wide: [12, 1], middle: [12, 1], narrow: 300, applies: (_, model) => gameOf(model, null) !== null },
   { name: 'strategy', component: StrategyPanel, wide: [5, 1], middle: [6, 1], narrow: 270, applies: (_, model) => gameOf(model, null) !== null },
-  { name: 'reconstruction', component: ReconstructionPanel, wide: [7, 2], middle: [6, 2], narrow: 500, applies: (_, model) => reconstructionOf(model, null) !== null },
+  { name: 'reconstruction', component: ReconstructionPanel, wide: [7, 2], middle: [6, 2], narrow: 500, applies: (_, model) => !hasSubsystems(model) && reconstructionOf(model, null) !== null },
   { name: 'schedule', component: SchedulePanel, wide: [5, 1], middle: [6, 1], narrow: 220, applies: (run, model) => sensorsAttacked(run) && !aboutDetectors(run) && stationsOf(model).length > 0 },
   { name: 'verdict', component: VerdictPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: (run, model) => reportOf(run, model, null) !== null },
   { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true },
@@ -84,6 +93,7 @@ export interface Rows {
 const usualRows: Rows = { wide: [29, 47, 29], middle: [320, 320, 260] };
 const familyRows: Record<string, Rows> = {
   sparse: { wide: [1, 1, 1], middle: [400, 460, 300] },
+  observer: { wide: [10, 10, 9], middle: [340, 340, 380, 320] },
 };
 
 export function rowsOf(run: RunDetail): Rows {

@@ -62,6 +62,10 @@ export class LiveView {
   show(from: number, to: number): void {
     this.set({ range: { from: Math.round(Math.min(from, to)), to: Math.round(Math.max(from, to, Math.min(from, to) + 4)) } });
   }
+  /** The width of a window that follows the run. */
+  widen(width: number): void {
+    this.set({ width: Math.max(10, Math.round(width)) });
+  }
   /** Nearer (factor below 1) or farther. A window that follows stays at the newest tick. */
   zoom(factor: number, head: number, about?: number): void {
     if (this.following && about === undefined && this.cursor === null) {

@@ -23,7 +23,7 @@ export const en = {
   behind: 'behind live {s} s',
   behind_k: 'behind live {k} ticks',
   state_queued: 'queued',
-  state_designing: 'preparing',
+  state_designing: 'computing gains',
   state_running: 'running',
   state_paused: 'paused',
   state_finished: 'finished',
@@ -64,6 +64,7 @@ export const en = {
   attack_no_places: 'This run has neither links nor sensors to attack.',
   ended_no_change: 'The run has ended.',
   // figures
+  figure_network_note: 'Norm of the state error over all subsystems, at the cursor',
   figure_rmse_note: 'root mean square over the nodes of the position error at this tick; below it the run so far',
   figure_state_note: 'norm of the error of the state at this tick, attacked or not',
   figure_run: 'run {value}',
