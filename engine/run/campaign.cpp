@@ -80,8 +80,9 @@ TrialResult::TrialResult(TrialResult&&) noexcept = default;
 TrialResult& TrialResult::operator=(TrialResult&&) noexcept = default;
 TrialResult::~TrialResult() = default;
 
-TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace) {
-  Run run(scenario, {seed, std::move(trace), {}});
+TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace,
+                      const Json& designs) {
+  Run run(scenario, {seed, std::move(trace), {}, designs});
   if (!run.steps())
     throw InputError("/time/steps", "steps is null: a trial of a campaign must end by itself", "a whole number");
   NullSink sink;

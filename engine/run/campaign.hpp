@@ -29,8 +29,9 @@ class TrialResult {
 };
 
 /// Runs one trial to its end. Throws InputError (the scenario), nothing else of its own. Safe to call from many threads
-/// at once.
-TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace = nullptr);
+/// at once. designs: as RunOptions has them.
+TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace = nullptr,
+                      const Json& designs = Json::object());
 
 struct MetricSummary {
   MetricValue key;  ///< lane, node, name, variant; value unused

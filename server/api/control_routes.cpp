@@ -22,6 +22,7 @@ struct Change {
   RunUpdate words;
 
   bool live() const { return state || pace || step || params; }
+  bool only_stops() const { return state == "stopped" && !pace && !step && !params; }
 };
 
 Change read_change(const Json& body) {
@@ -69,7 +70,10 @@ void carry_out(const Change& change, LiveRun& run) {
 void patch(Services& services, const HttpRequest& request, HttpResponse& response) {
   const Change change = read_change(request.json());
   const RunId id = request.id_param("id");
-  if (change.live()) {
+  if (change.only_stops() && services.runs.stop_designing(id, "stopped")) {
+    // It may have begun at that very moment.
+    if (const auto begun = services.runs.find(id)) begun->wait_ended(std::chrono::seconds(10));
+  } else if (change.live()) {
     carry_out(change, *live_run(request, services));
   } else {
     run_row(request, services);

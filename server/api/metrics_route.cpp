@@ -50,6 +50,7 @@ void runs(MetricsText& text, const Services& services) {
   text.family("vigil_runs", "gauge", "Runs that are not over.");
   text.sample("vigil_runs{state=\"running\"}", counts.running);
   text.sample("vigil_runs{state=\"queued\"}", counts.queued);
+  text.sample("vigil_runs{state=\"designing\"}", counts.designing);
   const LogCounts log = services.reader.counts();
   text.family("vigil_logged_runs", "gauge", "Runs in the log by state.");
   for (const auto& [state, count] : log.by_state) {

@@ -28,6 +28,8 @@ std::int64_t read_id(const Json& value, const std::string& pointer);
 
 /// The preset or the user's own scenario of that name. Throws HttpError 404.
 Scenario named_scenario(const Services& services, const std::string& id);
+/// Members scenario (an id or a document) and patch of a body. Throws InputError below /scenario or /patch.
+Scenario read_scenario(const Json& body, const Services& services);
 /// The body of POST /runs. Throws InputError, HttpError.
 RunOrder read_order(const HttpRequest& request, Services& services);
 /// Takes over the Idempotency-Key, if there is one, with the hash of what was asked. Throws HttpError 400.

@@ -7,7 +7,7 @@
 namespace vigil {
 namespace {
 
-Scenario read_scenario(const Json& value, const Services& services) {
+Scenario read_base(const Json& value, const Services& services) {
   if (value.is_string()) {
     const auto id = value.get<std::string>();
     const auto& presets = Scenario::preset_ids();
@@ -23,16 +23,6 @@ Scenario read_scenario(const Json& value, const Services& services) {
     return Scenario::from_json(value);
   } catch (const InputError& error) {
     rethrow_below(error, "/scenario");
-  }
-}
-
-void read_patch(const Json& patch, RunOrder& order) {
-  if (!patch.is_object()) throw InputError("/patch", "patch is " + shown(patch) + "; expected an object", "object");
-  if (patch.empty()) return;
-  try {
-    order.scenario = order.scenario.patched(patch);
-  } catch (const InputError& error) {
-    rethrow_below(error, "/patch");
   }
 }
 
@@ -56,15 +46,26 @@ void read_input(const Json& input, Services& services, RunOrder& order) {
 
 }  // namespace
 
-RunOrder read_order(const HttpRequest& request, Services& services) {
-  const Json body = request.json();
-  check_members(body, {"scenario", "patch", "seed", "pace", "input", "tags", "note"});
+Scenario read_scenario(const Json& body, const Services& services) {
   if (!body.contains("scenario")) {
     throw InputError("/scenario", "scenario is missing; expected an id or a document", "text or object");
   }
+  Scenario scenario = read_base(body.at("scenario"), services);
+  const Json patch = body.value("patch", Json::object());
+  if (!patch.is_object()) throw InputError("/patch", "patch is " + shown(patch) + "; expected an object", "object");
+  if (patch.empty()) return scenario;
+  try {
+    return scenario.patched(patch);
+  } catch (const InputError& error) {
+    rethrow_below(error, "/patch");
+  }
+}
+
+RunOrder read_order(const HttpRequest& request, Services& services) {
+  const Json body = request.json();
+  check_members(body, {"scenario", "patch", "seed", "pace", "input", "tags", "note"});
   RunOrder order;
-  order.scenario = read_scenario(body.at("scenario"), services);
-  if (body.contains("patch")) read_patch(body.at("patch"), order);
+  order.scenario = read_scenario(body, services);
   if (body.contains("seed")) {
     order.seed =
         static_cast<std::uint64_t>(read_integer(body.at("seed"), "seed", 0, static_cast<std::int64_t>(kLargestSeed)));

@@ -90,6 +90,8 @@ Json run_detail(const RunRow& row, const Services& services) {
   Json run = base(row, now, services);
   run["metrics"] = list_json(now.status ? now.status->metrics : row.metrics);
   run["design"] = now.status ? now.status->design : row.design;
+  run["designing"] = Json::array();
+  for (const DesignItem& item : services.runs.designing(row.id)) run["designing"].push_back(to_json(item));
   add_end(run, row, now.status.get());
   run["commands"] = Json::array();
   for (const Command& command : row.commands) run["commands"].push_back({{"k", command.k}, {"body", command.body}});
@@ -108,7 +110,9 @@ RunRow run_row(const HttpRequest& request, const Services& services) {
 std::shared_ptr<LiveRun> live_run(const HttpRequest& request, const Services& services) {
   if (auto run = services.runs.find(request.id_param("id"))) return run;
   const RunRow row = run_row(request, services);
-  throw HttpError(409, "Run " + request.params.at("id") + " is " + row.state + ": it can no longer be changed.");
+  const std::string end = row.state == "designing" ? "until its gains are found it can only be stopped or deleted."
+                                                   : "it can no longer be changed.";
+  throw HttpError(409, "Run " + request.params.at("id") + " is " + row.state + ": " + end);
 }
 
 }  // namespace vigil

@@ -30,6 +30,7 @@ struct Services {
 void add_scenario_routes(Routes& routes, Services& services);
 void add_run_routes(Routes& routes, Services& services);
 void add_control_routes(Routes& routes, Services& services);
+void add_design_routes(Routes& routes, Services& services);
 void add_data_routes(Routes& routes, Services& services);
 void add_bundle_routes(Routes& routes, Services& services);
 void add_trace_routes(Routes& routes, Services& services);

@@ -7,9 +7,12 @@
 namespace vigil {
 namespace {
 
-/// Reached only where the hub does not know the run: it has ended (of an earlier server, say), or never was.
+/// Reached only where the hub does not know the run: it has ended (of an earlier server, say), has not begun, or never
+/// was.
 void ended(const Services& services, const HttpRequest& request, HttpResponse& response) {
-  run_row(request, services);
+  const RunRow row = run_row(request, services);
+  if (row.state == "designing")
+    throw HttpError(409, "The run is designing: its stream begins when its gains are found.");
   response.empty(204);
 }
 
@@ -27,6 +30,7 @@ void add_stream_routes(Routes& routes, Services& services) {
           .answer(200, "Server-sent events.", events, "text/event-stream")
           .empty(204, "The run is over: nothing will come.")
           .problem(404, "There is no such run or topic.")
+          .problem(409, "The run is designing; GET /stream tells when that is over.")
           .what());
   run.stream = [](const HttpRequest& request) {
     return StreamTarget{request.id_param("id"), request.query_value("topic")};

@@ -15,7 +15,8 @@ Json server_json(const Services& services) {
   Json info;
   info["version"] = std::string(version());
   info["uptime"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - services.started).count();
-  info["runs"] = {{"running", counts.running}, {"queued", counts.queued}, {"max", counts.max}};
+  info["runs"] = {
+      {"running", counts.running}, {"queued", counts.queued}, {"designing", counts.designing}, {"max", counts.max}};
   info["viewers"] = services.hub.viewers();
   info["log"] = {{"bytes", health.bytes},
                  {"queue", health.queue_bytes},
@@ -61,6 +62,7 @@ Routes make_routes(Services& services) {
   add_scenario_routes(routes, services);
   add_run_routes(routes, services);
   add_control_routes(routes, services);
+  add_design_routes(routes, services);
   add_data_routes(routes, services);
   add_bundle_routes(routes, services);
   add_trace_routes(routes, services);

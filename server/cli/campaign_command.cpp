@@ -8,6 +8,7 @@
 #include "db/writer.hpp"
 #include "server/cli/commands.hpp"
 #include "server/cli/files.hpp"
+#include "server/cli/gain_finder.hpp"
 #include "server/cli/progress.hpp"
 #include "server/cli/report.hpp"
 #include "server/cli/scenario_options.hpp"
@@ -25,9 +26,10 @@ struct CampaignCommand {
   int threads = 0;
   std::vector<std::string> sweeps;
   std::string db, json;
+  GainFinder gains;
 };
 
-CampaignPlan make_plan(const CampaignCommand& command) {
+CampaignPlan make_plan(CampaignCommand& command) {
   const RunOrder order = command.scenario.order();
   if (!order.commands.empty())
     throw UserError("a bundle with live commands cannot be a campaign; its document alone can");
@@ -41,6 +43,13 @@ CampaignPlan make_plan(const CampaignCommand& command) {
   }
   CampaignPlan plan;
   plan.points = make_grid(order.scenario, sweeps);
+  for (CampaignPoint& point : plan.points) {
+    RunOrder one;
+    one.scenario = point.scenario;
+    one.designs = order.designs;
+    command.gains.complete(one);
+    point.designs = std::move(one.designs);
+  }
   plan.runs = command.runs;
   plan.first_seed = static_cast<std::uint64_t>(command.first_seed);
   plan.trace = order.trace;
@@ -104,7 +113,7 @@ void print(const CampaignPlan& plan, const std::vector<CampaignOutcome>& outcome
   }
 }
 
-int carry_out(const CampaignCommand& command) {
+int carry_out(CampaignCommand& command) {
   const CampaignPlan plan = make_plan(command);
   std::unique_ptr<Logged> log;
   if (!command.db.empty()) log = std::make_unique<Logged>(command.db, plan);
@@ -113,16 +122,18 @@ int carry_out(const CampaignCommand& command) {
   std::int64_t ticks = 0;
   const std::atomic<bool> never{false};
   const auto begin = std::chrono::steady_clock::now();
-  const auto outcomes = run_campaign(plan, never, [&](std::int64_t index, const TrialResult& trial) {
+  auto outcomes = run_campaign(plan, never, [&](std::int64_t index, const TrialResult& trial) {
     if (log) log->add(index, trial);
     stopped = stopped || any_stopped(trial.faults);
     ticks += trial.ticks;
     progress.at(index + 1);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  for (std::size_t i = 0; i < outcomes.size(); ++i) drop_seconds(outcomes[i].design, plan.points[i].designs);
   Json result = result_json(plan, outcomes);
   if (log) log->finish(result);
   result["timing"]["run"] = {{"seconds", seconds}, {"ticks_per_second", static_cast<double>(ticks) / seconds}};
+  if (Json timing = command.gains.timing(); !timing.is_null()) result["timing"]["design"] = std::move(timing);
   if (command.json != "-") print(plan, outcomes);
   if (!command.json.empty()) write_text(command.json, result.dump(2) + "\n");
   return stopped ? kLaneStopped : kDone;
@@ -146,6 +157,7 @@ void add_campaign(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   sub->add_option("--db", command->db, "write the campaign into this log, too");
   sub->add_option("--json", command->json, "write the results as JSON to a file, or to standard output (-)");
+  command->gains.add_to(*sub);
   sub->callback([command, &action] { action = [command] { return carry_out(*command); }; });
 }
 

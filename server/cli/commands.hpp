@@ -25,6 +25,7 @@ using Action = std::function<int()>;
 void add_serve(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_campaign(CLI::App& app, Action& action);
+void add_synthesize(CLI::App& app, Action& action);
 void add_lists(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
 void add_db(CLI::App& app, Action& action);

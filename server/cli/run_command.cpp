@@ -8,6 +8,7 @@
 #include "engine/run/frame_csv.hpp"
 #include "server/cli/commands.hpp"
 #include "server/cli/files.hpp"
+#include "server/cli/gain_finder.hpp"
 #include "server/cli/progress.hpp"
 #include "server/cli/report.hpp"
 #include "server/cli/scenario_options.hpp"
@@ -19,6 +20,7 @@ struct RunCommand {
   ScenarioOptions scenario;
   std::optional<std::int64_t> seed;
   std::string db, frames, json;
+  GainFinder gains;
 };
 
 /// The frame file, written as the run goes.
@@ -110,7 +112,7 @@ Json list_json(const Rows& rows) {
   return list;
 }
 
-Json result_json(const Run& run, const std::string& state, double seconds) {
+Json result_json(const Run& run, const RunOrder& order, const std::string& state, double seconds) {
   Json result;
   result["scenario"] = run.scenario().id();
   result["seed"] = run.seed();
@@ -119,6 +121,7 @@ Json result_json(const Run& run, const std::string& state, double seconds) {
   result["state"] = state;
   result["metrics"] = list_json(run.metrics());
   result["design"] = run.design();
+  drop_seconds(result["design"], order.designs);
   result["faults"] = list_json(run.faults());
   result["warnings"] = run.warnings();
   // Lanes share one run, so only the whole of it can honestly be timed.
@@ -144,11 +147,12 @@ double step_through(Run& run, Outputs& outputs, const std::optional<std::int64_t
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-int carry_out(const RunCommand& command) {
+int carry_out(RunCommand& command) {
   RunOrder order = command.scenario.order();
   if (command.seed) order.seed = static_cast<std::uint64_t>(*command.seed);
-  Run run = make_run(order);
   require_end(order);
+  command.gains.complete(order);
+  Run run = make_run(order);
   Outputs outputs;
   if (!command.frames.empty()) outputs.file = std::make_unique<FrameFile>(command.frames, run.catalogue());
   if (!command.db.empty()) outputs.log = std::make_unique<Logged>(command.db, order, run, command.scenario.trace);
@@ -159,7 +163,11 @@ int carry_out(const RunCommand& command) {
   if (outputs.file) outputs.file->close();
   if (outputs.log) outputs.log->finish(run, state);
   if (command.json != "-") print(run, state);
-  if (!command.json.empty()) write_text(command.json, result_json(run, state, seconds).dump(2) + "\n");
+  if (!command.json.empty()) {
+    Json result = result_json(run, order, state, seconds);
+    if (Json timing = command.gains.timing(); !timing.is_null()) result["timing"]["design"] = std::move(timing);
+    write_text(command.json, result.dump(2) + "\n");
+  }
   return any_stopped(run.faults()) ? kLaneStopped : kDone;
 }
 
@@ -174,6 +182,7 @@ void add_run(CLI::App& app, Action& action) {
   sub->add_option("--db", command->db, "write the run into this log, too");
   sub->add_option("--frames", command->frames, "write every frame to this CSV file");
   sub->add_option("--json", command->json, "write the results as JSON to a file, or to standard output (-)");
+  command->gains.add_to(*sub);
   sub->callback([command, &action] { action = [command] { return carry_out(*command); }; });
 }
 

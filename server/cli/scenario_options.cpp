@@ -101,12 +101,16 @@ Scenario with_all(Scenario scenario, std::vector<std::pair<std::string, Json>> s
   return scenario;
 }
 
-void ScenarioOptions::add_to(CLI::App& command) {
+void ScenarioOptions::add_document_to(CLI::App& command) {
   command.add_option("SCENARIO", scenario, "a preset's id, a JSON file or a bundle")->required();
   command.add_option("--set", sets, "PATH=JSON, e.g. lanes.consensus.params.tau=0.02")
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--patch", patch, "a JSON Merge Patch of the document");
+}
+
+void ScenarioOptions::add_to(CLI::App& command) {
+  add_document_to(command);
   command.add_option("--trace", trace, "a frame file that takes the place of the world");
   command.add_option("--steps", steps, "last tick")->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
 }

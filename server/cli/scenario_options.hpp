@@ -20,6 +20,8 @@ struct ScenarioOptions {
   std::optional<std::int64_t> steps;
 
   void add_to(CLI::App& command);
+  /// SCENARIO, --set and --patch alone.
+  void add_document_to(CLI::App& command);
   /// The scenario with everything applied; of a bundle also its seed, commands, trace and last tick. Throws UserError,
   /// InputError.
   RunOrder order() const;

@@ -120,6 +120,9 @@ void add_serve(CLI::App& app, Action& action) {
                   "remove the oldest finished runs, then the oldest samples, above this size (20)");
   sub->add_option("--max-runs", command->server.runs.max_runs, "runs at once, 4 without; more wait")
       ->check(CLI::Range(1, 256));
+  sub->add_option("--design-limit", command->server.runs.design.limit,
+                  "seconds that finding a lane's gains may take, 120 without")
+      ->check(CLI::Range(0.01, 1e6));
   sub->callback([command, &action] { action = [command] { return serve(*command); }; });
 }
 

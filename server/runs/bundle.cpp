@@ -4,6 +4,7 @@
 
 #include "engine/core/describe.hpp"
 #include "engine/run/trace.hpp"
+#include "server/runs/designs.hpp"
 
 namespace vigil {
 namespace {
@@ -46,10 +47,12 @@ std::vector<Command> read_commands(const Json& list) {
   return commands;
 }
 
-/// A run that has had every earlier command is what each is checked against.
+/// A run that has had every earlier command is what each is checked against. Where gains must be found first there is
+/// none yet: what does not fit is said when it is made.
 void check_commands(const RunOrder& order) {
   RunOrder bare = order;
   bare.commands.clear();
+  if (!open_tasks(bare).empty()) return;
   Run scratch = make_run(bare);
   for (std::size_t i = 0; i < order.commands.size(); ++i) {
     const Command& command = order.commands[i];
@@ -95,6 +98,7 @@ Json bundle_head(const RunRow& run, const std::vector<Signal>& signals, const st
   bundle["commands"] = Json::array();
   for (const Command& command : run.commands) bundle["commands"].push_back({{"k", command.k}, {"body", command.body}});
   bundle["trace"] = trace ? Json(*trace) : Json();
+  bundle["designs"] = run.designs.is_null() ? Json::object() : run.designs;
   bundle["metrics"] = Json::array();
   for (const MetricValue& metric : run.metrics) bundle["metrics"].push_back(to_json(metric));
   bundle["faults"] = Json::array();
@@ -130,6 +134,10 @@ Bundle read_bundle(const Json& json) {
   if (json.contains("trace") && !json.at("trace").is_null()) {
     bundle.trace_csv = required(json, "trace", json.at("trace").is_string(), "a CSV text or null").get<std::string>();
     order.trace = std::make_shared<const Trace>(Trace::from_csv(bundle.trace_csv));
+  }
+  if (json.contains("designs")) {
+    order.designs = required(json, "designs", holds(json, "designs", &Json::is_object), "an object");
+    check_designs(order.scenario, order.designs);
   }
   if (!order.commands.empty()) check_commands(order);
   // What ended by a command, a kill or its own steps ends again at the same tick, and says so.

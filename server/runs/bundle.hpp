@@ -14,8 +14,8 @@ namespace vigil {
 
 /// {"vigil_bundle":1,"version","cpu","scenario","seed","state","k","document","commands":[{"k","body"}],"trace":csv or
 /// null,
-///  "metrics","faults","design","warnings","tags","note","signals","frames":csv or absent}. `trace` is the text of its
-///  trace.
+///  "designs":{"<lane>":record},"metrics","faults","design","warnings","tags","note","signals","frames":csv or absent}.
+///  `trace` is the text of its trace.
 Json bundle_head(const RunRow& run, const std::vector<Signal>& signals, const std::optional<std::string>& trace);
 /// True for a JSON object that claims to be one.
 bool is_bundle(const Json& json);

@@ -84,8 +84,8 @@ class Workers {
     try {
       while (const auto index = queue.next()) {
         const CampaignPoint& point = plan.points[static_cast<std::size_t>(*index / plan.runs)];
-        queue.put(*index, run_trial(point.scenario, plan.first_seed + static_cast<std::uint64_t>(*index % plan.runs),
-                                    plan.trace));
+        const auto seed = plan.first_seed + static_cast<std::uint64_t>(*index % plan.runs);
+        queue.put(*index, run_trial(point.scenario, seed, plan.trace, point.designs));
       }
     } catch (...) {
       queue.fail(std::current_exception());
@@ -122,12 +122,12 @@ void merge(CampaignOutcome& outcome, const TrialResult& trial) {
 
 std::vector<CampaignPoint> make_grid(const Scenario& base,
                                      const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps) {
-  std::vector<CampaignPoint> points{{Json::object(), base}};
+  std::vector<CampaignPoint> points{{Json::object(), base, Json::object()}};
   for (const auto& [path, values] : sweeps) {
     std::vector<CampaignPoint> wider;
     for (const CampaignPoint& point : points) {
       for (const Json& value : values) {
-        CampaignPoint next{point.sweep, point.scenario.with(path, value)};
+        CampaignPoint next{point.sweep, point.scenario.with(path, value), point.designs};
         next.sweep[path] = value;
         wider.push_back(std::move(next));
       }

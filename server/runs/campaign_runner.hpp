@@ -19,6 +19,7 @@ namespace vigil {
 struct CampaignPoint {
   Json sweep = Json::object();
   Scenario scenario;
+  Json designs = Json::object();  ///< {"<lane>":record} for every task of the scenario
 };
 
 struct CampaignPlan {

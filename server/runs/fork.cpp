@@ -126,6 +126,7 @@ RunOrder fork_order(const RunRow& parent, std::int64_t k, const Json& patch, std
   order.seed = parent.seed;
   order.trace_id = parent.trace;
   order.trace = std::move(trace);
+  if (parent.designs.is_object()) order.designs = parent.designs;
   order.parent = RunParent{parent.id, k};
   order.fast_until = k;
   order.tags = parent.tags;

@@ -5,11 +5,17 @@
 #include <vector>
 
 #include "engine/run/trace.hpp"
+#include "server/runs/designs.hpp"
 
 namespace vigil {
 
 RunManager::RunManager(LogWriter& log, const LogReader& reader, Hub& hub, ManagerOptions options)
-    : log_(log), reader_(reader), hub_(hub), options_(options), keeper_([this] { keep_house(); }) {}
+    : log_(log),
+      reader_(reader),
+      hub_(hub),
+      options_(std::move(options)),
+      keeper_([this] { keep_house(); }),
+      designer_(log, reader, options_.design, [this] { look_at_designs(); }) {}
 
 RunManager::~RunManager() {
   stop();
@@ -21,38 +27,60 @@ RunManager::~RunManager() {
   keeper_.join();
 }
 
+/// Counts in whoever does something outside the lock that stop() must wait for; counts out with the last copy.
+std::shared_ptr<void> RunManager::count_in() {
+  return {nullptr, [this](void*) {
+            const std::lock_guard lock(mutex_);
+            --beginning_;
+            changed_.notify_all();
+          }};
+}
+
 CreatedRun RunManager::create(RunOrder order) {
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) throw RunRefusal(RunRefusal::Kind::full, "The server is stopping.");
-    if (queue_.size() + static_cast<std::size_t>(beginning_) >= options_.max_queue) {
+    if (queue_.size() + waiting_.size() + static_cast<std::size_t>(beginning_) >= options_.max_queue) {
       throw RunRefusal(RunRefusal::Kind::full, "Too many runs wait already; try again when some have ended.");
     }
     ++beginning_;
   }
-  // Counts down whatever happens, after the run is in the queue.
-  const std::shared_ptr<void> leave(nullptr, [this](void*) {
-    const std::lock_guard lock(mutex_);
-    --beginning_;
-    changed_.notify_all();
+  const std::shared_ptr<void> leave = count_in();  // after the run is in the queue
+  std::vector<DesignTask> open = open_tasks(order);
+  std::erase_if(open, [&](const DesignTask& task) {
+    Json record = designer_.known(task);
+    if (record.is_null()) return false;
+    order.designs[task.lane] = std::move(record);
+    return true;
   });
+  if (!open.empty()) return create_designing(std::move(order), std::move(open));
   Run run = make_run(order);
   const CreatedRun created = log_.create_run(make_record(order, run));
   if (!created.fresh) return created;
   for (const Command& command : order.commands) log_.command(created.id, command);
-  auto live = std::make_shared<LiveRun>(created.id, std::move(order), std::move(run), log_, hub_,
-                                        [this](RunId id) { ended(id); });
+  begin(created.id, std::move(order), std::move(run));
+  return created;
+}
+
+void RunManager::begin(RunId id, RunOrder order, Run run) {
+  auto live =
+      std::make_shared<LiveRun>(id, std::move(order), std::move(run), log_, hub_, [this](RunId over) { ended(over); });
   const std::lock_guard lock(mutex_);
-  runs_[created.id] = live;
-  if (stopping_) {
-    live->stop("interrupted");
+  runs_[id] = live;
+  std::string end = stopping_ ? "interrupted" : "";
+  if (const auto place = waiting_.find(id); place != waiting_.end()) {
+    end = place->second->stop.value_or(end);
+    waiting_.erase(place);
+    changed_.notify_all();
+  }
+  if (!end.empty()) {
+    live->stop(end);
   } else if (live->order().sleeps_unwatched) {
     live->start();
   } else {
-    queue_.push_back(created.id);
+    queue_.push_back(id);
     fill();
   }
-  return created;
 }
 
 void RunManager::fill() {
@@ -75,6 +103,7 @@ std::shared_ptr<LiveRun> RunManager::find(RunId id) const {
 }
 
 void RunManager::remove(RunId id) {
+  stop_designing(id, "stopped");
   if (const auto live = find(id)) {
     live->stop("stopped");
     if (!live->wait_ended(std::chrono::seconds(10))) {
@@ -106,6 +135,7 @@ RunManager::Counts RunManager::counts() const {
   const std::lock_guard lock(mutex_);
   Counts counts;
   counts.max = options_.max_runs;
+  counts.designing = static_cast<int>(waiting_.size());
   for (const auto& [id, run] : runs_) ++(run->started() ? counts.running : counts.queued);
   return counts;
 }
@@ -143,11 +173,18 @@ void RunManager::keep_house() {
 }
 
 void RunManager::stop() {
+  std::vector<RunId> waiting;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    queue_.clear();
+    for (const auto& [id, run] : runs_) run->stop(run->started() ? "stopped" : "interrupted");
+    for (const auto& [id, run] : waiting_) waiting.push_back(id);
+  }
+  designer_.stop();
+  for (const RunId id : waiting) stop_designing(id, "interrupted");
   std::unique_lock lock(mutex_);
-  stopping_ = true;
-  queue_.clear();
-  for (const auto& [id, run] : runs_) run->stop(run->started() ? "stopped" : "interrupted");
-  changed_.wait(lock, [this] { return runs_.empty() && beginning_ == 0; });
+  changed_.wait(lock, [this] { return runs_.empty() && waiting_.empty() && beginning_ == 0; });
 }
 
 }  // namespace vigil

@@ -26,10 +26,18 @@ Run make_run(const RunOrder& order) {
   options.seed = order.seed;
   options.trace = order.trace;
   options.commands = order.commands;
+  options.designs = order.designs;
   return Run(order.scenario, std::move(options));
 }
 
 RunRecord make_record(const RunOrder& order, const Run& run) {
+  RunRecord record = make_record(order);
+  record.dt = run.dt();
+  record.steps = run.steps();
+  return record;
+}
+
+RunRecord make_record(const RunOrder& order) {
   const Json& document = order.scenario.document();
   RunRecord record;
   record.scenario = order.scenario.id();
@@ -45,8 +53,10 @@ RunRecord make_record(const RunOrder& order, const Run& run) {
   record.tags = order.tags;
   record.note = order.note;
   record.parent = order.parent;
-  record.dt = run.dt();
-  record.steps = run.steps();
+  const Json& time = document.at("time");
+  record.dt = time.at("dt").get<double>();
+  if (time.at("steps").is_number()) record.steps = time.at("steps").get<std::int64_t>();
+  if (!order.designs.empty()) record.designs = order.designs;
   record.policy = log_policy(document, order.pace);
   record.keep = log_keep(document);
   record.reproducible = document.value("reproducible", true);

@@ -28,18 +28,21 @@ struct RunOrder {
   std::vector<std::string> tags;
   std::string note;
   std::optional<RunParent> parent;
-  std::vector<Command> commands;       ///< that belong to the run from the start
-  std::int64_t fast_until = -1;        ///< up to this tick the pace is not kept: what is repeated needs no waiting for
-  std::optional<std::int64_t> last;    ///< the run ends after this tick, whatever its document says
+  Json designs = Json::object();     ///< {"<lane>":record}: gains, for every task of the scenario when the run is made
+  std::vector<Command> commands;     ///< that belong to the run from the start
+  std::int64_t fast_until = -1;      ///< up to this tick the pace is not kept: what is repeated needs no waiting for
+  std::optional<std::int64_t> last;  ///< the run ends after this tick, whatever its document says
   std::string end_state = "finished";  ///< the state it ends in then
   std::string idempotency_key, idempotency_hash;
   bool sleeps_unwatched = false;  ///< the demo: no ticks while nobody watches
 };
 
-/// Throws InputError where the scenario cannot be run as it is.
+/// Throws InputError where the scenario cannot be run as it is, also where it lacks a design.
 Run make_run(const RunOrder& order);
 /// The row the log gets. `run` was made from `order`.
 RunRecord make_record(const RunOrder& order, const Run& run);
+/// The row of a run that cannot be made yet: dt and steps are the document's.
+RunRecord make_record(const RunOrder& order);
 
 /// The document's "log" in the log's own terms. Where the document says nothing, a paced run is live, others lossless.
 LogPolicy log_policy(const Json& document, const Pace& pace);
