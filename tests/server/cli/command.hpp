@@ -27,6 +27,7 @@ class ServerProcess {
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;
   int port() const { return port_; }
+  pid_t pid() const { return pid_; }
   const std::string& first_line() const { return line_; }
   /// Sends the signal and waits; the exit code as in Outcome.
   int end(int signal);
