@@ -37,6 +37,9 @@ struct SensorPlace {
   int channel = -1;
 };
 
+/// The same of actuators.
+using ActuatorPlace = SensorPlace;
+
 /// What happens to a sensor's readings. The first four are those of a link; the others are types of false data that
 /// the metrics keep apart (seed 001, Table 1).
 enum class SensorState : std::uint8_t { clean = 0, dos = 1, fdi = 2, replay = 3, type_i = 4, type_ii = 5, type_r = 6 };
@@ -67,6 +70,19 @@ struct SensorEffects {
   bool plays(int node) const;
 };
 
+class Attack;
+
+/// Who pushes on which actuators in one tick. A push is a function of time within the tick: a plant in continuous time
+/// is attacked at every stage of its integration. The attacks are the adversary's own; valid until its next tick.
+struct ActuatorEffects {
+  struct Push {
+    const Attack* attack = nullptr;
+    ActuatorPlace place;
+  };
+  std::vector<Push> pushes;
+  void clear() { pushes.clear(); }
+};
+
 /// What a receiver may know of a channel's statistics: the published probabilities and the bound, never a realisation.
 struct LinkRates {
   double dos = 0;    ///< phi-bar
@@ -80,12 +96,13 @@ struct AttackContext {
   int message = 0;                 ///< size of what a link carries: the plant's states
   bool on_links = true;            ///< it acts on some link
   std::vector<int> readings;       ///< sizes of what it acts on at sensors: a whole reading's channels, or 1
+  std::vector<int> actuators;      ///< the same of actuators
   std::int64_t from = 1;           ///< the first tick it may act
   std::optional<std::int64_t> to;  ///< the last
   bool by_hand = false;            ///< started in a live run
 };
 
-enum class ChannelKind { link, sensor };
+enum class ChannelKind { link, sensor, actuator };
 
 /// A value with no memory of its own but its parameters: what it does at a tick depends on tick and draws alone.
 class Attack {
@@ -98,6 +115,9 @@ class Attack {
   virtual void act(std::int64_t /*k*/, std::span<const int> /*links*/, LinkEffects& /*effects*/) const {}
   /// The same on sensors.
   virtual void tamper(std::int64_t /*k*/, std::span<const SensorPlace> /*places*/, SensorEffects& /*effects*/) const {}
+  /// Adds what it does to one place's actuators at time t, s, of a tick whose middle is at `branch` (which piece of a
+  /// signal holds: see world/interconnected/signals.hpp).
+  virtual void push(double /*t*/, double /*branch*/, Eigen::Ref<Eigen::VectorXd> /*w*/) const {}
   /// The first tick at which it does something, where a parameter says so: attacks act in the order of their starts.
   virtual std::int64_t start() const { return 0; }
   /// False at ticks between its first and last at which it does nothing: where it begins and ends is what people see.

@@ -13,6 +13,9 @@ class Bias final : public Attack {
         branch_(context.seed, "adversary." + context.id + ".branch") {
     if (context.on_links) check_size(context.message, "a message");
     for (const int size : context.readings) check_size(size, "what it acts on at a sensor");
+    for (const int size : context.actuators) check_size(size, "what it acts on at an actuator");
+    if (!context.actuators.empty() && probability_ != 1)
+      throw InputError("/probability", "probability is below 1; an actuator is pushed all the time", "1");
   }
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Bias>(*this); }
@@ -32,6 +35,9 @@ class Bias final : public Attack {
       if (branch_.bernoulli(k, index, probability_)) effects.add(place, vector_, SensorState::fdi);
     }
   }
+
+  /// On an actuator it pushes all the time: a probability a step means nothing in continuous time.
+  void push(double /*t*/, double /*branch*/, Eigen::Ref<Eigen::VectorXd> w) const override { w += vector_; }
 
   LinkRates rates() const override { return {0, probability_, vector_.norm()}; }
 

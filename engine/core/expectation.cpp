@@ -20,6 +20,8 @@ std::string_view to_string(ParamType type) {
       return "vector";
     case ParamType::matrix:
       return "matrix";
+    case ParamType::object:
+      return "object";
   }
   return "";
 }
@@ -51,6 +53,8 @@ std::string base(const Param& param) {
                             : "a vector of finite numbers";
     case ParamType::matrix:
       return "a finite matrix [[..],..], its diagonal [..] or a number";
+    case ParamType::object:
+      return "an object";
   }
   return "";
 }

@@ -56,6 +56,8 @@ Json typed_schema(const Param& param) {
       return vector_schema(param);
     case ParamType::matrix:
       return matrix_schema(param);
+    case ParamType::object:
+      return {{"type", type_words(param, Json::array({"object"}))}};
     case ParamType::real:
     case ParamType::integer:
       break;

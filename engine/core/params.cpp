@@ -79,6 +79,8 @@ bool fits(const Param& param, const Json& value) {
       return fits_vector(param, value);
     case ParamType::matrix:
       return fits_matrix(param, value);
+    case ParamType::object:
+      return value.is_object();
   }
   return false;
 }

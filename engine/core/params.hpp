@@ -27,6 +27,7 @@ enum class ParamType {
   text,    ///< one of `choices`
   vector,  ///< [..], any length unless `rows` is set
   matrix,  ///< [[..],..], a diagonal [..], or a number times the identity; kept as given
+  object,  ///< a document of its own, read and checked by whoever declared it
 };
 
 /// One declared parameter. Built with designated initialisers; what is left out is free.

@@ -103,7 +103,11 @@ bool stabilisable(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   if (!A.allFinite() || !B.allFinite()) return false;
   const auto n = A.rows();
   const double size = A.norm();
-  const Eigen::MatrixXd ways = size * B.colwise().normalized();  // the unit of an input says nothing
+  Eigen::MatrixXd ways = B;
+  for (auto column : ways.colwise()) {  // the unit of an input says nothing
+    const double length = column.norm();
+    if (length > 0) column *= size / length;
+  }
   const Eigen::VectorXcd modes = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
   Eigen::MatrixXcd pencil(n, n + B.cols());
   for (const std::complex<double>& mode : modes) {

@@ -35,6 +35,7 @@ struct Knowledge {
   bool monitor = false;          ///< its estimator hears what was sent, only its detector what arrived
   double dt = 1;                 ///< s
   std::uint64_t seed = 0;        ///< of a method's own draws: Draws(seed, "method.<what>"), the same for every lane
+  Json design;                   ///< the record of what was solved for this lane before the run; null: nothing was
 };
 
 /// What a node received on one link in one exchange round.
@@ -49,7 +50,7 @@ using Readings = std::vector<Eigen::VectorXd>;
 
 /// What a method believes at one output: views into its own memory, valid until its next call. Null: it has none.
 struct Belief {
-  const double* mean = nullptr;        ///< states
+  const double* mean = nullptr;        ///< states, or those that components() names
   const double* covariance = nullptr;  ///< states x states, column-major: a covariance or an upper bound of it
   const double* innovation = nullptr;  ///< innovation_size values; null in a tick without a reading
   const double* innovation_covariance = nullptr;  ///< column-major
@@ -62,6 +63,14 @@ struct Reconstruction {
   const double* entries = nullptr;  ///< channels x window, newest reading last; exactly zero where no attack is found
   int channels = 0;
   int window = 0;
+};
+
+/// What an output makes of the inputs that nobody knows: views valid until the method's next call. Null: it says
+/// nothing.
+struct UnknownInputs {
+  const double* attack = nullptr;                                ///< on the node's actuators
+  const double* fault = nullptr;                                 ///< of its sensor
+  double innovation = std::numeric_limits<double>::quiet_NaN();  ///< its norm
 };
 
 /// What a detector says at one output in one tick.
@@ -101,6 +110,8 @@ struct OwnMetric {
   bool boolean = false;
 };
 
+class ContinuousMethod;
+
 /// One tick of the lane calls emit at every node, predict, measure, then (for message() > 0) send at every node, then
 /// update, judge, where the lane controls its plant mark_input, and publish.
 class Method {
@@ -132,6 +143,13 @@ class Method {
   virtual void mark_input(std::int64_t /*k*/, Eigen::Ref<Eigen::VectorXd> /*u*/) {}
   /// False until it has an estimate that may drive the plant.
   virtual bool ready() const { return true; }
+
+  /// Null: its time goes in ticks.
+  virtual ContinuousMethod* continuous() { return nullptr; }
+  virtual const ContinuousMethod* continuous() const { return nullptr; }
+  /// Of which states of the plant an output's mean consists; empty: of all, in their order.
+  virtual std::vector<int> components(int /*output*/) const { return {}; }
+  virtual UnknownInputs unknown_inputs(int /*output*/) const { return {}; }
 
   virtual Belief belief(int output) const = 0;
   /// Readings that its reconstructions span; 0: it makes none.

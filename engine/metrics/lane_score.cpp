@@ -1,8 +1,10 @@
 #include "engine/metrics/lane_score.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/linalg/chi_square.hpp"
 
@@ -37,20 +39,45 @@ void LaneScore::Sum::add(double value) {
 
 double LaneScore::Sum::mean() const { return count == 0 ? kNone : total / static_cast<double>(count); }
 
-LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreRules rules)
-    : rules_(std::move(rules)), groups_(plant.errors()), outputs_(std::move(outputs)) {
+LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreRules rules,
+                     std::vector<std::vector<int>> components)
+    : rules_(std::move(rules)),
+      groups_(plant.errors()),
+      outputs_(std::move(outputs)),
+      components_(std::move(components)) {
   for (const Component& component : plant.state()) periods_.push_back(component.period);
   sums_.resize(outputs_.size() * groups_.size());
   last_.resize(outputs_.size() * kWindow);
   mse_.resize(outputs_.size() * rules_.mse.size());
+  error_.resize(plant.states());
+  components_.resize(outputs_.size());
+  for (std::vector<int>& own : components_) {
+    if (own.empty()) {
+      own.resize(static_cast<std::size_t>(plant.states()));
+      std::iota(own.begin(), own.end(), 0);
+    }
+    members_.emplace_back(groups_.size());
+    for (std::size_t place = 0; place < own.size(); ++place) {
+      for (std::size_t g = 0; g < groups_.size(); ++g) {
+        const auto& group = groups_[g].components;
+        if (std::find(group.begin(), group.end(), own[place]) != group.end())
+          members_.back()[g].push_back(static_cast<int>(place));
+      }
+    }
+  }
 }
 
 TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& truth, const Belief& belief) {
   TickScore score;
-  const BoundedVector e = state_error(truth, belief.mean, periods_);
+  const auto& own = components_[static_cast<std::size_t>(output)];
+  auto e = error_.head(static_cast<Eigen::Index>(own.size()));
+  for (std::size_t place = 0; place < own.size(); ++place) {
+    const auto c = static_cast<std::size_t>(own[place]);
+    e[static_cast<Eigen::Index>(place)] = wrap(belief.mean[place] - truth[own[place]], periods_[c]);
+  }
   for (int g = 0; g < groups(); ++g) {
     double square = 0;
-    for (const int c : groups_[static_cast<std::size_t>(g)].components) square += e[c] * e[c];
+    for (const int c : members_[static_cast<std::size_t>(output)][static_cast<std::size_t>(g)]) square += e[c] * e[c];
     score.error[g] = std::sqrt(square);
     if (!rules_.window.holds(k)) continue;
     cell(output, g).add(square);
@@ -61,10 +88,12 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
     }
   }
   for (std::size_t f = 0; f < rules_.mse.size(); ++f) {
-    const double value = e[rules_.mse[f].component];
+    const auto found = std::find(own.begin(), own.end(), rules_.mse[f].component);
+    if (found == own.end()) continue;
+    const double value = e[found - own.begin()];
     if (rules_.mse[f].window.holds(k)) mse_[f * outputs_.size() + static_cast<std::size_t>(output)].add(value * value);
   }
-  score.nees = belief.covariance == nullptr ? kNone : inverse_form(belief.covariance, e);
+  score.nees = belief.covariance == nullptr ? kNone : inverse_form(belief.covariance, BoundedVector(e));
   score.nis = kNone;
   if (belief.innovation != nullptr) {
     const Eigen::Map<const Eigen::VectorXd> r(belief.innovation, belief.innovation_size);

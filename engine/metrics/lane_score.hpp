@@ -51,7 +51,9 @@ class LaneScore {
   static constexpr int kWindow = 10;  ///< ticks of rmse_position_last10
 
   LaneScore() = default;
-  LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreRules rules = {});
+  /// components: of the plant's states, what each output estimates; empty: all of them.
+  LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreRules rules = {},
+            std::vector<std::vector<int>> components = {});
 
   /// Judges one output; the truth may have NaN. Counts it where the window holds k.
   TickScore judge(std::int64_t k, int output, const Eigen::VectorXd& truth, const Belief& belief);
@@ -77,6 +79,9 @@ class LaneScore {
   std::vector<ErrorGroup> groups_;
   std::vector<double> periods_;
   std::vector<std::string> outputs_;
+  std::vector<std::vector<int>> components_;            ///< of the plant's states, by output
+  std::vector<std::vector<std::vector<int>>> members_;  ///< by output and group: places in the output's own error
+  Eigen::VectorXd error_;
   std::vector<Sum> sums_;  ///< squared errors, outputs x groups
   std::vector<Sum> last_;  ///< squared errors of the first group in the last ticks, outputs x kWindow
   std::vector<Sum> mse_;   ///< of each figure in rules_, figures x outputs

@@ -10,7 +10,8 @@
 namespace vigil {
 namespace {
 
-constexpr const char* kPlaces = "link:*, link:FROM-TO, sensor:NODE or sensor:NODE.CHANNEL";
+constexpr const char* kPlaces =
+    "link:*, link:FROM-TO, sensor:NODE, sensor:NODE.CHANNEL, actuator:NODE or actuator:NODE.CHANNEL";
 
 std::string quoted(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -27,8 +28,9 @@ std::optional<std::int64_t> read_tick(const Json& entry, const char* key, const 
 }  // namespace
 
 Adversary::Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes,
-                     const std::vector<std::vector<std::string>>& channels, std::uint64_t seed, int message)
-    : graph_(graph), nodes_(nodes), channels_(channels), seed_(seed), message_(message) {
+                     const std::vector<std::vector<std::string>>& channels,
+                     const std::vector<std::vector<std::string>>& actuators, std::uint64_t seed, int message)
+    : graph_(graph), nodes_(nodes), channels_(channels), actuators_(actuators), seed_(seed), message_(message) {
   for (const auto& [id, entry] : document.items()) add(id, entry, false, "/adversary/" + id, 1);
 }
 
@@ -36,11 +38,12 @@ Adversary::Adversary(const Adversary& other)
     : graph_(other.graph_),
       nodes_(other.nodes_),
       channels_(other.channels_),
+      actuators_(other.actuators_),
       seed_(other.seed_),
       message_(other.message_) {
   for (const Entry& e : other.entries_) {
-    entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.link_name, e.node_name, e.from,
-                        e.start, e.to, e.enabled, e.by_hand, e.acting});
+    entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.actuators, e.link_name,
+                        e.node_name, e.from, e.start, e.to, e.enabled, e.by_hand, e.acting});
   }
 }
 
@@ -53,17 +56,21 @@ int Adversary::find_link(const std::string& from, const std::string& to) const {
   return -1;
 }
 
-SensorPlace Adversary::find_sensor(const std::string& node, const std::string& channel,
-                                   const std::string& pointer) const {
-  const auto found = std::find(nodes_.begin(), nodes_.end(), node);
+SensorPlace Adversary::find_channel(const Place& at, const std::string& pointer) const {
+  const auto found = std::find(nodes_.begin(), nodes_.end(), at.node);
   if (found == nodes_.end())
-    throw InputError(pointer, fmt::format("there is no node \"{}\"", node), fmt::format("{}", fmt::join(nodes_, ", ")));
+    throw InputError(pointer, fmt::format("there is no node \"{}\"", at.node),
+                     fmt::format("{}", fmt::join(nodes_, ", ")));
   SensorPlace place{static_cast<int>(found - nodes_.begin()), -1};
-  if (channel.empty()) return place;
-  const auto& names = channels_[static_cast<std::size_t>(place.node)];
-  const auto name = std::find(names.begin(), names.end(), channel);
+  const bool actuator = at.kind == PlaceKind::actuator;
+  const auto& names = (actuator ? actuators_ : channels_)[static_cast<std::size_t>(place.node)];
+  if (actuator && names.empty())
+    throw InputError(pointer, fmt::format("the plant has no actuator at node \"{}\" that could be attacked", at.node));
+  if (at.channel.empty()) return place;
+  const auto name = std::find(names.begin(), names.end(), at.channel);
   if (name == names.end()) {
-    throw InputError(pointer, fmt::format("sensor {} has no channel \"{}\"", node, channel),
+    throw InputError(pointer,
+                     fmt::format("{} {} has no channel \"{}\"", actuator ? "actuator" : "sensor", at.node, at.channel),
                      fmt::format("{}", fmt::join(names, ", ")));
   }
   place.channel = static_cast<int>(name - names.begin());
@@ -77,26 +84,25 @@ void Adversary::find_places(const Json& on, const std::string& pointer, Entry& e
     const std::string at = fmt::format("{}/{}", pointer, p);
     const std::string text = on[p].is_string() ? on[p].get<std::string>() : quoted(on[p]);
     const auto place = parse_place(text);
-    if (!place || place->kind == PlaceKind::actuator) {
-      throw InputError(at, fmt::format("\"{}\" is no place that an attack of this version acts on", text), kPlaces);
-    }
+    if (!place) throw InputError(at, fmt::format("\"{}\" is no place that an attack acts on", text), kPlaces);
     if (place->kind == PlaceKind::every_link) {
       for (int l = 0; l < static_cast<int>(graph_.links().size()); ++l) entry.links.push_back(l);
     } else if (place->kind == PlaceKind::link) {
       entry.links.push_back(find_link(place->from, place->to));
       if (entry.links.back() < 0) throw InputError(at, fmt::format("the network has no \"{}\"", text), kPlaces);
     } else {
-      entry.sensors.push_back(find_sensor(place->node, place->channel, at));
+      (place->kind == PlaceKind::actuator ? entry.actuators : entry.sensors).push_back(find_channel(*place, at));
     }
   }
   std::sort(entry.links.begin(), entry.links.end());
   entry.links.erase(std::unique(entry.links.begin(), entry.links.end()), entry.links.end());
-  if (entry.links.size() + entry.sensors.size() != 1) return;
-  if (entry.sensors.empty()) {
+  if (entry.links.size() + entry.sensors.size() + entry.actuators.size() != 1) return;
+  if (!entry.links.empty()) {
     const Link& link = graph_.links()[static_cast<std::size_t>(entry.links.front())];
     entry.link_name = nodes_[static_cast<std::size_t>(link.from)] + "-" + nodes_[static_cast<std::size_t>(link.to)];
   } else {
-    entry.node_name = nodes_[static_cast<std::size_t>(entry.sensors.front().node)];
+    const auto& places = entry.sensors.empty() ? entry.actuators : entry.sensors;
+    entry.node_name = nodes_[static_cast<std::size_t>(places.front().node)];
   }
 }
 
@@ -110,21 +116,36 @@ std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, c
   std::vector<Problem> problems;
   const Json complete = kind->params.complete(given, pointer + "/params", problems);
   if (!problems.empty()) throw InputError(std::move(problems));
-  AttackContext context{entry.id, seed_, message_, !entry.links.empty(), {}, entry.from, entry.to, entry.by_hand};
-  for (const SensorPlace& place : entry.sensors) {
-    context.readings.push_back(
-        place.channel >= 0 ? 1 : static_cast<int>(channels_[static_cast<std::size_t>(place.node)].size()));
-  }
+  AttackContext context{.id = entry.id,
+                        .seed = seed_,
+                        .message = message_,
+                        .on_links = !entry.links.empty(),
+                        .from = entry.from,
+                        .to = entry.to,
+                        .by_hand = entry.by_hand};
+  const auto sizes = [](const std::vector<SensorPlace>& places, const std::vector<std::vector<std::string>>& names) {
+    std::vector<int> all;
+    for (const SensorPlace& place : places)
+      all.push_back(place.channel >= 0 ? 1 : static_cast<int>(names[static_cast<std::size_t>(place.node)].size()));
+    return all;
+  };
+  context.readings = sizes(entry.sensors, channels_);
+  context.actuators = sizes(entry.actuators, actuators_);
   auto attack = under(pointer + "/params", [&] { return kind->make(Params(complete), context); });
-  const bool names_links = !entry.links.empty() || entry.sensors.empty();  // link:* of a network without any
-  if (names_links && !attack->acts_on(ChannelKind::link)) {
-    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on sensors, not on links", entry.type),
-                     "sensor:NODE or sensor:NODE.CHANNEL");
-  }
-  if (!entry.sensors.empty() && !attack->acts_on(ChannelKind::sensor)) {
-    throw InputError(pointer + "/on", fmt::format("\"{}\" acts on links, not on sensors", entry.type),
-                     "link:* or link:FROM-TO");
-  }
+  // link:* of a network without any link names links all the same
+  const bool names_links = !entry.links.empty() || (entry.sensors.empty() && entry.actuators.empty());
+  const auto need = [&](bool named, ChannelKind channel, const char* what) {
+    if (!named || attack->acts_on(channel)) return;
+    std::vector<std::string> others;
+    if (attack->acts_on(ChannelKind::link)) others.emplace_back("link:* or link:FROM-TO");
+    if (attack->acts_on(ChannelKind::sensor)) others.emplace_back("sensor:NODE or sensor:NODE.CHANNEL");
+    if (attack->acts_on(ChannelKind::actuator)) others.emplace_back("actuator:NODE or actuator:NODE.CHANNEL");
+    throw InputError(pointer + "/on", fmt::format("\"{}\" does not act on {}", entry.type, what),
+                     fmt::format("{}", fmt::join(others, ", ")));
+  };
+  need(names_links, ChannelKind::link, "links");
+  need(!entry.sensors.empty(), ChannelKind::sensor, "sensors");
+  need(!entry.actuators.empty(), ChannelKind::actuator, "actuators");
   return attack;
 }
 
@@ -164,12 +185,15 @@ void Adversary::mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const 
   if (entry.links.size() > 1) mark.detail = fmt::format("{} links", entry.links.size());
   if (entry.sensors.size() > 1)
     mark.detail += fmt::format("{}{} sensors", mark.detail.empty() ? "" : ", ", entry.sensors.size());
+  if (entry.actuators.size() > 1)
+    mark.detail += fmt::format("{}{} actuators", mark.detail.empty() ? "" : ", ", entry.actuators.size());
   const std::string remark = entry.acting ? entry.attack->remark() : "";
   if (!remark.empty()) mark.detail += (mark.detail.empty() ? "" : "; ") + remark;
   sink.mark(mark);
 }
 
-void Adversary::act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, Sink& sink) {
+void Adversary::act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, ActuatorEffects& actuators,
+                    Sink& sink) {
   for (Entry& entry : entries_) {
     const bool acts = entry.enabled && k >= entry.from && (!entry.to || k <= *entry.to) && entry.attack->active(k);
     if (acts != entry.acting) {
@@ -179,6 +203,7 @@ void Adversary::act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, 
     if (!acts) continue;
     if (!entry.links.empty()) entry.attack->act(k, entry.links, links);
     if (!entry.sensors.empty()) entry.attack->tamper(k, entry.sensors, sensors);
+    for (const ActuatorPlace& place : entry.actuators) actuators.pushes.push_back({entry.attack.get(), place});
   }
 }
 

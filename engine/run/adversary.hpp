@@ -10,6 +10,7 @@
 #include "engine/adversary/attack.hpp"
 #include "engine/core/json.hpp"
 #include "engine/run/frame.hpp"
+#include "engine/scenario/document.hpp"
 #include "engine/world/graph.hpp"
 
 namespace vigil {
@@ -19,16 +20,17 @@ class Adversary {
   Adversary() = default;
   /// `document`: the scenario's "adversary". Links are those of `graph`, the graph the run starts with: a draw's index
   /// is the link's place there, so that a later change of the graph moves no draw. `channels`: the names of each node's
-  /// sensor channels.
+  /// sensor channels; `actuators`: of each node's actuators, none where it has none.
   Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes,
-            const std::vector<std::vector<std::string>>& channels, std::uint64_t seed, int message);
+            const std::vector<std::vector<std::string>>& channels,
+            const std::vector<std::vector<std::string>>& actuators, std::uint64_t seed, int message);
   Adversary(const Adversary& other);
   Adversary(Adversary&&) noexcept = default;
   Adversary& operator=(Adversary&&) noexcept = default;
 
-  /// Decides tick k for every link and sensor and marks attacks that begin or end with it. Attacks act in the order of
-  /// their starts, then ids, so that where one replaces another the later start wins.
-  void act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, Sink& sink);
+  /// Decides tick k for every link, sensor and actuator and marks attacks that begin or end with it. Attacks act in the
+  /// order of their starts, then ids, so that where one replaces another the later start wins.
+  void act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, ActuatorEffects& actuators, Sink& sink);
   /// What the document's attacks publish of their statistics, one a link. Attacks started by hand publish nothing.
   std::vector<LinkRates> rates(const Graph& graph) const;
 
@@ -48,6 +50,7 @@ class Adversary {
     Json params;
     std::vector<int> links;
     std::vector<SensorPlace> sensors;
+    std::vector<ActuatorPlace> actuators;
     std::string link_name, node_name;  ///< for marks: "2-5" or "3"; empty where it acts on several
     std::int64_t from = 1;
     std::int64_t start = 1;          ///< the later of `from` and what the attack itself says
@@ -59,7 +62,8 @@ class Adversary {
   void add(const std::string& id, const Json& entry, bool by_hand, const std::string& pointer, std::int64_t now);
   void find_places(const Json& on, const std::string& pointer, Entry& entry) const;
   int find_link(const std::string& from, const std::string& to) const;
-  SensorPlace find_sensor(const std::string& node, const std::string& channel, const std::string& pointer) const;
+  /// A sensor's or an actuator's channel, by the names that every node has of its kind.
+  SensorPlace find_channel(const Place& place, const std::string& pointer) const;
   void mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const;
   /// The attack itself, with the parameters of `entry`. Throws InputError under `pointer`.
   std::unique_ptr<Attack> make(const Entry& entry, const Json& params, const std::string& pointer) const;
@@ -68,7 +72,7 @@ class Adversary {
   std::vector<Entry> entries_;
   Graph graph_;
   std::vector<std::string> nodes_;
-  std::vector<std::vector<std::string>> channels_;
+  std::vector<std::vector<std::string>> channels_, actuators_;
   std::uint64_t seed_ = 0;
   int message_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "engine/run/contender.hpp"
 
+#include <fmt/format.h>
+
 namespace vigil {
 
 Contender::Contender(std::unique_ptr<Method> method, const World& world, const Graph& graph, Side side, bool monitor,
@@ -7,6 +9,7 @@ Contender::Contender(std::unique_ptr<Method> method, const World& world, const G
     : method_(std::move(method)), side_(side), monitor_(monitor) {
   if (side_ != Side::shared) course_ = Course(world);
   if (side_ == Side::marked || side_ == Side::closed) channels_ = SensorChannels(world.sensors, last);
+  if (method_->continuous() != nullptr) flow_ = LaneFlow(world, *method_->continuous());
   make_inbox(graph);
 }
 
@@ -15,6 +18,7 @@ Contender::Contender(const Contender& other)
       side_(other.side_),
       monitor_(other.monitor_),
       course_(other.course_),
+      flow_(other.flow_),
       channels_(other.channels_),
       inbox_(other.inbox_),
       outbox_(other.outbox_) {}
@@ -25,18 +29,26 @@ void Contender::make_inbox(const Graph& graph) {
   outbox_ = Eigen::MatrixXd::Zero(method_->message(), graph.nodes());
 }
 
-void Contender::begin(const World& world, const Eigen::VectorXd& truth) {
-  if (side_ == Side::shared) return;
-  course_.truth = truth;
-  if (side_ == Side::closed) act(0, world);
+void Contender::begin(const World& world, const Course& shared) {
+  if (side_ != Side::shared) {
+    course_.truth = shared.truth;
+    if (world.continuous() != nullptr && side_ != Side::recorded) course_.begin_flow(world);
+    if (side_ == Side::closed && world.controller) act(0, world);
+  }
+  const Course& seen = course(shared);
+  if (ContinuousMethod* method = method_->continuous()) flow_.begin(seen.received, seen.input, *method);
 }
 
 void Contender::tick(const Tick& tick, bool attacked, const SensorEffects& none, FaultTable& faults) {
-  sense(tick, attacked ? tick.sensors : none);
+  sense(tick, attacked, attacked ? tick.sensors : none);
   const Course& seen = course(tick.shared);
   const Readings& arrived = attacked ? seen.received : seen.sent;
   const Readings& heard = monitor_ ? seen.sent : arrived;
-  method_->predict(seen.input, faults);
+  if (method_->continuous() != nullptr) {
+    flow(tick, attacked, seen, heard, faults);
+  } else {
+    method_->predict(seen.input, faults);
+  }
   if (faults.stopped()) return;
   method_->measure(heard, faults);
   if (faults.stopped()) return;
@@ -44,18 +56,34 @@ void Contender::tick(const Tick& tick, bool attacked, const SensorEffects& none,
   method_->update(heard, inbox_, faults);
   if (faults.stopped()) return;
   method_->judge(arrived, faults);
-  if (side_ == Side::closed) act(tick.k, tick.world);
+  if (side_ == Side::closed && tick.world.controller) act(tick.k, tick.world);
+}
+
+void Contender::flow(const Tick& tick, bool attacked, const Course& seen, const Readings& heard, FaultReport& faults) {
+  ContinuousMethod& method = *method_->continuous();
+  const bool finite = tick.traced || side_ == Side::recorded
+                          ? flow_.follow_trace(tick.k, heard, seen.input, method)
+                          : flow_.follow(tick.world, tick.k, attacked, seen, heard, method);
+  if (finite) return;
+  if (std::string* detail = faults.stop(-1, "diverged")) {
+    *detail = fmt::format(
+        "the observers' state is no longer finite; steps of {:.3g} s serve poles up to {:.3g} 1/s: a smaller time.dt "
+        "makes them smaller",
+        flow_.step(), method.fastest());
+  }
 }
 
 /// Steps 1 to 3: the plant, its sensors, what leaves them, what arrives.
-void Contender::sense(const Tick& tick, const SensorEffects& effects) {
+void Contender::sense(const Tick& tick, bool attacked, const SensorEffects& effects) {
   if (side_ == Side::shared || side_ == Side::recorded) return;
   if (side_ == Side::closed) {
-    course_.advance(tick.world);
+    course_.advance(tick.world, tick.k, attacked);
     course_.sense(tick.world);
   } else {
     course_.truth = tick.shared.truth;
     course_.input = tick.shared.input;
+    course_.past = tick.shared.past;
+    course_.drives = tick.shared.drives;
     course_.readings = tick.shared.readings;
   }
   for (int i = 0; i < static_cast<int>(course_.readings.size()); ++i) {

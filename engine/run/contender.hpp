@@ -9,6 +9,7 @@
 #include "engine/methods/method.hpp"
 #include "engine/run/course.hpp"
 #include "engine/run/fault_table.hpp"
+#include "engine/run/lane_flow.hpp"
 #include "engine/run/sensor_channels.hpp"
 
 namespace vigil {
@@ -16,6 +17,7 @@ namespace vigil {
 /// What a tick gives to every lane.
 struct Tick {
   std::int64_t k = 0;
+  bool traced = false;  ///< the course comes from a trace
   const World& world;
   const Course& shared;
   const Graph& graph;
@@ -29,7 +31,7 @@ class Contender {
   enum class Side {
     shared,    ///< hears the shared readings
     marked,    ///< sees the shared plant, but something of its own leaves its sensors
-    closed,    ///< drives a plant of its own
+    closed,    ///< has a plant of its own: it drives it, or no attack reaches its actuators
     recorded,  ///< its plant, inputs and readings come from a trace, through course()
   };
 
@@ -39,8 +41,8 @@ class Contender {
   Contender(const Contender& other);
   Contender(Contender&&) noexcept = default;
 
-  /// Tick 0: the truth it starts from, and its first input.
-  void begin(const World& world, const Eigen::VectorXd& truth);
+  /// Tick 0: where it starts from, and its first input.
+  void begin(const World& world, const Course& shared);
   /// Steps 1 to 6 of a tick; `attacked` false: the adversary does not touch it.
   /// `none`: effects that do nothing. Ends early where the method stops.
   void tick(const Tick& tick, bool attacked, const SensorEffects& none, FaultTable& faults);
@@ -54,15 +56,17 @@ class Contender {
   const Course& course(const Course& shared) const { return side_ == Side::shared ? shared : course_; }
 
  private:
-  void sense(const Tick& tick, const SensorEffects& effects);
+  void sense(const Tick& tick, bool attacked, const SensorEffects& effects);
   void exchange(const Tick& tick, bool attacked);
   void act(std::int64_t k, const World& world);
   void make_inbox(const Graph& graph);
+  void flow(const Tick& tick, bool attacked, const Course& seen, const Readings& heard, FaultReport& faults);
 
   std::unique_ptr<Method> method_;
   Side side_;
   bool monitor_;
   Course course_;
+  LaneFlow flow_;  ///< of a method in continuous time
   SensorChannels channels_;
   std::vector<Delivery> inbox_;
   Eigen::MatrixXd outbox_;  ///< message size x nodes

@@ -16,21 +16,62 @@ Course::Course(const World& world)
     : truth(Eigen::VectorXd::Zero(world.plant->states())),
       input(Eigen::VectorXd::Constant(world.plant->inputs(), kMissing)),
       upcoming(input),
+      past(truth),
       next_(truth) {
   for (const auto& sensor : world.sensors) readings.emplace_back(Eigen::VectorXd::Constant(sensor->size(), kMissing));
   sent = readings;
   received = readings;
+  if (const ContinuousPlant* plant = world.continuous()) {
+    drives = Eigen::VectorXd::Zero(plant->drives());
+    outputs_ = Eigen::VectorXd::Zero(plant->outputs());
+    flow_ = PlantFlow(*plant, world.dt);
+  }
 }
 
-void Course::advance(const World& world) {
+void Course::advance(const World& world, std::int64_t k, bool attacked) {
+  if (const ContinuousPlant* plant = world.continuous()) {
+    const ActuatorEffects* pushes = attacked ? &world.actuators : nullptr;
+    past = truth;
+    flow_.advance(*plant, world.drive, pushes, k, truth);
+    truth += world.process;
+    const double t = static_cast<double>(k) * world.dt;
+    world.drive.read(t, t, pushes, drives);
+    note_inputs(*plant);
+    return;
+  }
   input = upcoming;
   world.plant->advance(truth, input, next_);
   truth = next_ + world.process;
 }
 
+/// What acts at this tick of the known inputs is what is written down of them.
+void Course::note_inputs(const ContinuousPlant& plant) {
+  Eigen::Index entry = 0;
+  for (const DrivePorts& ports : plant.ports()) {
+    for (int c = 0; c < ports.u; ++c) input[entry++] = drives[ports.first + c];
+  }
+}
+
+void Course::begin_flow(const World& world) {
+  world.drive.read(0, 0, nullptr, drives);
+  note_inputs(*world.continuous());
+  past = truth;
+  sense(world);
+  sent = readings;
+  received = readings;
+}
+
 void Course::sense(const World& world) {
+  const ContinuousPlant* plant = world.continuous();
+  if (plant != nullptr) plant->output(truth, drives, outputs_);
+  Eigen::Index output = 0;
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    world.sensors[i]->measure(truth, readings[i]);
+    if (plant != nullptr) {
+      readings[i] = outputs_.segment(output, readings[i].size());
+      output += readings[i].size();
+    } else {
+      world.sensors[i]->measure(truth, readings[i]);
+    }
     readings[i] += world.sensing[i];
     const auto& channels = world.sensors[i]->channels();
     for (std::size_t c = 0; c < channels.size(); ++c) {

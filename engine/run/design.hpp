@@ -22,14 +22,16 @@ struct DesignTask {
   /// limit: seconds. Never throws for what a solver does.
   std::function<Json(SdpSolver& solver, double limit)> solve;
   std::function<SdpProblem()> problem;  ///< for people who cross-check with a solver of their own
+  /// Throws InputError (pointer "") where a record is of another problem, has no gains of the right sizes, or its
+  /// certificate does not hold when it is computed anew (gains that are given run without one).
+  std::function<void(const Json& record)> check;
 };
 
 /// Of the enabled lanes that need one, in the document's order; empty for most scenarios. Throws InputError where the
 /// scenario's plant, or a lane's settings, cannot be designed for.
 std::vector<DesignTask> design_tasks(const Scenario& scenario);
 
-/// Throws InputError at /lanes/<lane> where the record is of another problem, or its certificate does not hold when it
-/// is computed anew.
+/// task.check with the pointer /lanes/<lane>.
 void check_design(const DesignTask& task, const Json& record);
 
 /// What a method that needs gains registers beside itself, under the same id. Throws InputError relative to params.

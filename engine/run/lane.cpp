@@ -34,6 +34,17 @@ class LaneScope final : public SignalScope {
   Catalogue& catalogue_;
 };
 
+/// The states that each output estimates: all, where the method does not say.
+std::vector<std::vector<int>> components_of(const Method& method, const Plant& plant) {
+  std::vector<std::vector<int>> all;
+  for (int o = 0; o < static_cast<int>(method.outputs().size()); ++o) {
+    all.push_back(method.components(o));
+    if (!all.back().empty()) continue;
+    for (int c = 0; c < plant.states(); ++c) all.back().push_back(c);
+  }
+  return all;
+}
+
 std::string square_unit(const std::string& unit) { return unit.empty() ? "" : unit + "²"; }
 
 }  // namespace
@@ -42,7 +53,8 @@ Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, const World& wor
     : options_(std::move(options)),
       contender_(std::move(method), world, graph, options_.side, options_.monitor, options_.last),
       outputs_(contender_.method().outputs()),
-      score_(*world.plant, outputs_, options_.rules),
+      components_(components_of(contender_.method(), *world.plant)),
+      score_(*world.plant, outputs_, options_.rules, components_),
       state_score_(*world.plant, options_.rules.state_from),
       twin_score_(state_score_),
       alarms_(outputs_.size(), 0),
@@ -55,6 +67,10 @@ Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, const World& wor
   attack_score_ = AttackScore(channels, mine.window(), static_cast<int>(outputs_.size()));
   for (const Component& component : world.plant->state()) periods_.push_back(component.period);
   if (mine.detects()) detection_.assign(outputs_.size(), {options_.rules.detection_from, mine.tail()});
+  if (mine.continuous() != nullptr && world.continuous() != nullptr) {
+    ports_ = world.continuous()->ports();
+    input_score_ = InputScore(components_, ports_, options_.rules.window);
+  }
   const bool simulated = options_.side == Contender::Side::closed || options_.side == Contender::Side::marked;
   if (!options_.spared && simulated) twin_.emplace(contender_);
   record_.lane = options_.id;
@@ -70,12 +86,15 @@ Lane::Lane(const Lane& other)
       twin_faults_(other.twin_faults_),
       no_effects_(other.no_effects_),
       recorded_effects_(other.recorded_effects_),
+      components_(other.components_),
       score_(other.score_),
       attack_score_(other.attack_score_),
       state_score_(other.state_score_),
       twin_score_(other.twin_score_),
       detection_(other.detection_),
+      input_score_(other.input_score_),
       periods_(other.periods_),
+      ports_(other.ports_),
       slots_(other.slots_),
       course_slot_(other.course_slot_),
       sensor_slot_(other.sensor_slot_),
@@ -101,20 +120,28 @@ void Lane::declare(const World& world, const std::vector<std::string>& nodes, Ca
   LaneScope scope(id(), outputs_, catalogue);
   const auto& groups = world.plant->errors();
   rmse_slot_ = scope.add(-1, "rmse", groups[0].unit, SignalKind::scalar);
-  if (outputs_.size() > 1) spread_slot_ = scope.add(-1, "spread", groups[0].unit, SignalKind::scalar);
+  const bool flows = !ports_.empty();
+  if (outputs_.size() > 1 && !flows) spread_slot_ = scope.add(-1, "spread", groups[0].unit, SignalKind::scalar);
   if (options_.side != Contender::Side::shared) declare_course(world, nodes, scope, catalogue);
   for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) {
     Slots slots{};
     slots.estimate = catalogue.size();
-    for (const Component& component : world.plant->state())
+    for (const int c : components_[static_cast<std::size_t>(o)]) {
+      const Component& component = world.plant->state()[static_cast<std::size_t>(c)];
       scope.add(o, "estimate." + component.name, component.unit, SignalKind::scalar);
+    }
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::string suffix = g == 0 ? "" : "_" + groups[g].name;
       slots.error[g] = scope.add(o, "error" + suffix, groups[g].unit, SignalKind::scalar);
+      if (flows) continue;
       slots.bound[g] = scope.add(o, "bound" + suffix, square_unit(groups[g].unit), SignalKind::scalar);
     }
-    slots.nees = scope.add(o, "nees", "", SignalKind::scalar);
-    slots.nis = scope.add(o, "nis", "", SignalKind::scalar);
+    if (flows) {
+      declare_unknown(o, scope, slots);
+    } else {
+      slots.nees = scope.add(o, "nees", "", SignalKind::scalar);
+      slots.nis = scope.add(o, "nis", "", SignalKind::scalar);
+    }
     if (method().detects()) {
       slots.statistic = scope.add(o, "statistic", "", SignalKind::scalar);
       slots.threshold = scope.add(o, "threshold", "", SignalKind::scalar);
@@ -123,6 +150,16 @@ void Lane::declare(const World& world, const std::vector<std::string>& nodes, Ca
     slots_.push_back(slots);
   }
   method().declare(scope);
+}
+
+void Lane::declare_unknown(int output, SignalScope& scope, Slots& slots) const {
+  const DrivePorts& ports = ports_[static_cast<std::size_t>(output)];
+  const auto add = [&](const std::string& name) { return scope.add(output, name, "", SignalKind::scalar); };
+  std::vector<int> ids;
+  for (int c = 1; c <= ports.w; ++c) ids.push_back(add("attack.w" + std::to_string(c)));
+  for (int c = 1; c <= ports.f; ++c) ids.push_back(add("fault.f" + std::to_string(c)));
+  ids.push_back(add("innovation"));
+  slots.unknown = ids.front();
 }
 
 /// lane.<lane>.truth.…, .input.…, .sensor.…: what belongs to the lane.
@@ -134,9 +171,9 @@ void Lane::declare_course(const World& world, const std::vector<std::string>& no
   sensor_slot_ = declare_sensors("lane." + id() + ".", id(), nodes, world, catalogue);
 }
 
-void Lane::begin(const World& world, const Eigen::VectorXd& truth) {
-  contender_.begin(world, truth);
-  if (twin_) twin_->begin(world, truth);
+void Lane::begin(const World& world, const Course& shared) {
+  contender_.begin(world, shared);
+  if (twin_) twin_->begin(world, shared);
 }
 
 const SensorEffects& Lane::effects(const Tick& tick) const {
@@ -163,6 +200,12 @@ void Lane::judge(const Tick& tick) {
       attack_score_.judge(o, method().reconstruction(o), method().choice(o));
   }
   if (method().detects()) judge_detection(tick);
+  if (!ports_.empty()) {
+    const Course& seen = contender_.course(tick.shared);
+    for (int o = 0; o < static_cast<int>(outputs_.size()); ++o)
+      input_score_.note(tick.k, o, seen.truth, seen.drives, method().belief(o).mean, method().unknown_inputs(o));
+    return;  // the rest scores one estimate of the whole state
+  }
   if (options_.side == Contender::Side::shared) return;
   if (method().ready()) state_score_.note(tick.k, contender_.course(tick.shared).truth, method().belief(0).mean);
   if (twin_ && twin_->method().ready())
@@ -200,10 +243,11 @@ void Lane::mark_edges(std::int64_t k, Sink& sink) {
 void Lane::append_metrics(std::vector<MetricValue>& metrics) const {
   score_.append_metrics(id(), metrics);
   attack_score_.append_metrics(id(), outputs_, metrics);
+  input_score_.append_metrics(id(), outputs_, metrics);
   const bool alone = outputs_.size() == 1;
   for (std::size_t o = 0; o < detection_.size(); ++o)
     detection_[o].append_metrics(id(), alone ? "" : outputs_[o], twin_.has_value(), metrics);
-  if (options_.side == Contender::Side::shared) return;
+  if (options_.side == Contender::Side::shared || !ports_.empty()) return;
   if (twin_) twin_score_.append_metrics(id(), "", metrics);
   state_score_.append_metrics(id(), options_.spared ? "" : "_attacked", metrics);
 }

@@ -11,6 +11,7 @@
 #include "engine/metrics/attack_score.hpp"
 #include "engine/metrics/bound_ratio.hpp"
 #include "engine/metrics/detection_score.hpp"
+#include "engine/metrics/input_score.hpp"
 #include "engine/metrics/lane_score.hpp"
 #include "engine/metrics/state_score.hpp"
 #include "engine/run/contender.hpp"
@@ -37,7 +38,7 @@ class Lane {
 
   void declare(const World& world, const std::vector<std::string>& nodes, Catalogue& catalogue);
   /// Tick 0.
-  void begin(const World& world, const Eigen::VectorXd& truth);
+  void begin(const World& world, const Course& shared);
   /// Steps 1 to 7 of a tick.
   void tick(const Tick& tick);
   /// Scores against the truth and writes the lane's signals (NaN once it has stopped). `attacks`: what really happened
@@ -70,17 +71,20 @@ class Lane {
 
  private:
   struct Slots {
-    int estimate, nees, nis;
+    int estimate, nees = -1, nis = -1;  ///< -1: it has no covariance
     int error[LaneScore::kMaxGroups], bound[LaneScore::kMaxGroups];
     int statistic = -1, threshold = -1, alarm = -1;
+    int unknown = -1;  ///< of attacks, faults, then the innovation's norm
   };
   const SensorEffects& effects(const Tick& tick) const;
   void declare_course(const World& world, const std::vector<std::string>& nodes, SignalScope& scope,
                       Catalogue& catalogue);
+  void declare_unknown(int output, SignalScope& scope, Slots& slots) const;
   void publish_course(const Tick& tick, std::span<double> values) const;
   void publish_output(std::int64_t k, int output, const Eigen::VectorXd& truth, const Plant& plant,
                       std::span<double> values, double& square);
   void publish_detection(int output, std::span<double> values) const;
+  void publish_unknown(int output, std::span<double> values) const;
   void publish_spread(const Plant& plant, std::span<double> values) const;
   void judge(const Tick& tick);
   void judge_detection(const Tick& tick);
@@ -91,11 +95,14 @@ class Lane {
   std::vector<std::string> outputs_;
   FaultTable faults_, twin_faults_;
   SensorEffects no_effects_, recorded_effects_;
+  std::vector<std::vector<int>> components_;  ///< of the plant's states, by output
   LaneScore score_;
   AttackScore attack_score_;
   StateScore state_score_, twin_score_;
   std::vector<DetectionScore> detection_;
+  InputScore input_score_;
   std::vector<double> periods_;
+  std::vector<DrivePorts> ports_;  ///< by output; empty: not in continuous time
   std::vector<Slots> slots_;
   int course_slot_ = -1, sensor_slot_ = -1;
   int rmse_slot_ = -1, spread_slot_ = -1;

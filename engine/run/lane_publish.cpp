@@ -38,7 +38,8 @@ void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& tru
   const Slots& slots = slots_[static_cast<std::size_t>(output)];
   const auto put = [&](int slot, double value) { values[static_cast<std::size_t>(slot)] = value; };
   const int n = plant.states();
-  for (int c = 0; c < n; ++c) put(slots.estimate + c, belief.mean[c]);
+  const auto own = static_cast<int>(components_[static_cast<std::size_t>(output)].size());
+  for (int c = 0; c < own; ++c) put(slots.estimate + c, belief.mean[c]);
   const TickScore score = score_.judge(k, output, truth, belief);
   const auto& groups = plant.errors();
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -48,8 +49,11 @@ void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& tru
     for (const int c : groups[g].components) trace += belief.covariance[c * n + c];
     put(slots.bound[g], trace);
   }
-  put(slots.nees, score.nees);
-  put(slots.nis, score.nis);
+  if (slots.nees >= 0) {
+    put(slots.nees, score.nees);
+    put(slots.nis, score.nis);
+  }
+  if (slots.unknown >= 0) publish_unknown(output, values);
   if (method().detects()) publish_detection(output, values);
   square += score.error[0] * score.error[0];
   if (recording_ && k > 0 && belief.covariance != nullptr) {
@@ -57,6 +61,19 @@ void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& tru
     record_.errors.insert(record_.errors.end(), e.data(), e.data() + n);
     record_.bounds.insert(record_.bounds.end(), belief.covariance, belief.covariance + n * n);
   }
+}
+
+void Lane::publish_unknown(int output, std::span<double> values) const {
+  const UnknownInputs unknown = method().unknown_inputs(output);
+  const DrivePorts& ports = ports_[static_cast<std::size_t>(output)];
+  auto at = static_cast<std::size_t>(slots_[static_cast<std::size_t>(output)].unknown);
+  for (int c = 0; c < ports.w; ++c, ++at) {
+    if (unknown.attack != nullptr) values[at] = unknown.attack[c];
+  }
+  for (int c = 0; c < ports.f; ++c, ++at) {
+    if (unknown.fault != nullptr) values[at] = unknown.fault[c];
+  }
+  values[at] = unknown.innovation;
 }
 
 void Lane::publish_detection(int output, std::span<double> values) const {

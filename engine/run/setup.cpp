@@ -47,7 +47,11 @@ Graph read_network(const Json& network, const std::vector<std::string>& nodes, c
 }
 
 Run::State::State(const Scenario& given, RunOptions options)
-    : scenario(given), seed(options.seed), trace(std::move(options.trace)), pending(std::move(options.commands)) {
+    : scenario(given),
+      seed(options.seed),
+      trace(std::move(options.trace)),
+      pending(std::move(options.commands)),
+      designs(std::move(options.designs)) {
   std::stable_sort(pending.begin(), pending.end(),
                    [](const Command& one, const Command& other) { return one.k < other.k; });
   const Json& document = scenario.document();
@@ -61,7 +65,14 @@ Run::State::State(const Scenario& given, RunOptions options)
     names.emplace_back();
     for (const Component& channel : sensor->channels()) names.back().push_back(channel.name);
   }
-  adversary = Adversary(document.value("adversary", Json::object()), base, nodes, names, seed, world.plant->states());
+  std::vector<std::vector<std::string>> actuators(nodes.size());
+  if (const ContinuousPlant* plant = world.continuous()) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      for (int c = 1; c <= plant->ports()[i].w; ++c) actuators[i].push_back(fmt::format("w{}", c));
+    }
+  }
+  adversary = Adversary(document.value("adversary", Json::object()), base, nodes, names, actuators, seed,
+                        world.plant->states());
   set_lanes(document);
   if (trace) set_recorded_lanes();
   declare_signals();
@@ -71,7 +82,8 @@ void Run::State::set_world(const Json& document) {
   const auto& plant_entry = entry_of<PlantMake>(document["plant"]["type"].get<std::string>(), "/plant/type");
   world.plant = under("/plant/params", [&] { return plant_entry.make(Params(document["plant"]["params"]), dt); });
   const int n = world.plant->states();
-  if (n > kMaxSmall)
+  world.dt = dt;
+  if (n > kMaxSmall && world.continuous() == nullptr)
     throw InputError("/plant", fmt::format("the plant has {} states; at most {} are supported", n, kMaxSmall));
   const Json& controller = document["controller"];
   if (controller["type"] != "none") {
@@ -81,6 +93,12 @@ void Run::State::set_world(const Json& document) {
   }
   set_nodes(document);
   set_noise(document);
+  if (const ContinuousPlant* plant = world.continuous()) {
+    if (world.controller)
+      throw InputError("/controller/type", "a plant in continuous time has no controller; expected none");
+    plant->check_nodes(nodes, world.sensors);
+    world.drive = Drive(*plant, document["nodes"]);
+  }
   base = read_network(document["network"], nodes, positions);
   graph = base;
   base_of.resize(base.links().size());
@@ -109,7 +127,8 @@ void Run::State::set_nodes(const Json& document) {
     auto made = under(pointer + "/params", [&] { return entry.make(Params(params), *world.plant); });
     check_covariance(made->noise(), pointer + "/params/R",
                      made->may_be_exact() ? Definiteness::semidefinite : Definiteness::definite);
-    if (made->size() > kMaxSmall) throw InputError(pointer, fmt::format("a sensor has at most {} channels", kMaxSmall));
+    if (made->size() > kMaxSmall && world.continuous() == nullptr)
+      throw InputError(pointer, fmt::format("a sensor has at most {} channels", kMaxSmall));
     if (const auto place = made->position()) {
       positions.col(static_cast<Eigen::Index>(nodes.size())) = *place;
       placed = true;
@@ -136,6 +155,32 @@ void Run::State::set_noise(const Json& document) {
   }
 }
 
+std::vector<std::string> drive_names(const World& world, const std::vector<std::string>& nodes) {
+  std::vector<std::string> names;
+  const ContinuousPlant* plant = world.continuous();
+  if (plant == nullptr) return names;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const DrivePorts& ports = plant->ports()[i];
+    names.insert(names.end(), static_cast<std::size_t>(ports.u), "");
+    for (int c = 1; c <= ports.w; ++c) names.push_back(fmt::format("actuator.{}.w{}.injected", nodes[i], c));
+    for (int c = 1; c <= ports.d; ++c) names.push_back(fmt::format("disturbance.{}.d{}", nodes[i], c));
+    for (int c = 1; c <= ports.f; ++c) names.push_back(fmt::format("fault.{}.f{}", nodes[i], c));
+  }
+  return names;
+}
+
+void Run::State::declare_drives() {
+  for (const std::string& name : drive_names(world, nodes)) {
+    if (name.empty()) {
+      slots.drives.push_back(-1);
+      continue;
+    }
+    const std::size_t dot = name.find('.');
+    const std::string node = name.substr(dot + 1, name.find('.', dot + 1) - dot - 1);
+    slots.drives.push_back(catalogue.add({.name = name, .node = node}));
+  }
+}
+
 void Run::State::declare_signals() {
   const auto add = [&](const std::string& name, const std::string& unit, SignalKind kind, const std::string& node,
                        const std::string& link) {
@@ -148,6 +193,7 @@ void Run::State::declare_signals() {
   slots.input = catalogue.size();
   for (const Component& c : world.plant->input()) add("input." + c.name, c.unit, SignalKind::scalar, "", "");
   slots.sensor = declare_sensors("", "", nodes, world, catalogue);
+  declare_drives();
   for (const Link& link : base.links()) {
     const std::string id = nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
     slots.link.push_back(add("link." + id + ".state", "", SignalKind::category, "", id));

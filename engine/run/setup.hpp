@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "engine/core/registry.hpp"
+#include "engine/run/course.hpp"
 
 namespace vigil {
 
@@ -16,5 +18,9 @@ const Entry<Make>& entry_of(const std::string& type, const std::string& pointer)
   if (entry == nullptr) throw InputError(pointer, fmt::format("there is no \"{}\" here", type));
   return *entry;
 }
+
+/// "actuator.<node>.w1.injected", "disturbance.<node>.d1", "fault.<node>.f1" by the plant's ports, "" for known inputs;
+/// empty where time goes in ticks.
+std::vector<std::string> drive_names(const World& world, const std::vector<std::string>& nodes);
 
 }  // namespace vigil

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "engine/linalg/covariance.hpp"
+#include "engine/linalg/small.hpp"
+#include "engine/run/design.hpp"
 #include "engine/run/recorded_lane.hpp"
 #include "engine/run/setup.hpp"
 #include "engine/run/state.hpp"
@@ -100,11 +102,13 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::
 }
 
 /// Which plant a lane sees. A trace with readings of the lane's own takes the place of the plant it would control; one
-/// without drives it open loop, and what its sensors add is added to the trace's readings.
-Contender::Side Run::State::side_of(const std::string& lane, const Method& method) const {
+/// without drives it open loop, and what its sensors add is added to the trace's readings. In continuous time attacks
+/// act on the plant itself: a lane that is spared has one that they do not reach.
+Contender::Side Run::State::side_of(const std::string& lane, const Method& method, bool spared) const {
   if (trace && course_columns("lane." + lane + ".").readings) return Contender::Side::recorded;
   if (trace) return method.marks() ? Contender::Side::marked : Contender::Side::shared;
-  if (world.controller) return Contender::Side::closed;
+  if (world.controller || (world.continuous() != nullptr && spared)) return Contender::Side::closed;
+  if (world.continuous() != nullptr && method.continuous() != nullptr) return Contender::Side::shared;
   return method.marks() || method.detects() ? Contender::Side::marked : Contender::Side::shared;
 }
 
@@ -138,8 +142,13 @@ void Run::State::set_lanes(const Json& document) {
     knowledge.monitor = options.monitor;
     knowledge.rates = options.spared ? std::vector<LinkRates>(published.size()) : published;
     const auto& entry = entry_of<MethodMake>(options.method_id, pointer + "/method");
+    knowledge.design = designs.value(id, Json(nullptr));
+    if (n > kMaxSmall && Registry<DesignMake>::find(options.method_id) == nullptr) {
+      throw InputError(pointer + "/method", fmt::format("\"{}\" runs on plants of at most {} states; this one has {}",
+                                                        options.method_id, kMaxSmall, n));
+    }
     auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
-    options.side = side_of(id, *made);
+    options.side = side_of(id, *made, options.spared);
     lanes.emplace_back(std::move(options), std::move(made), world, graph);
   }
   if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/run/setup.hpp"
 #include "engine/run/state.hpp"
 
 namespace vigil {
@@ -44,6 +45,7 @@ CourseColumns Run::State::course_columns(const std::string& prefix) const {
   CourseColumns found;
   for (const Component& c : world.plant->state()) found.truth.push_back(find("truth." + c.name));
   for (const Component& c : world.plant->input()) found.input.push_back(find("input." + c.name));
+  for (const std::string& name : drive_names(world, nodes)) found.drives.push_back(name.empty() ? -1 : find(name));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     found.sensor_state.push_back(find("sensor." + nodes[i] + ".state"));
     if (found.sensor_state.back() >= 0)
@@ -76,7 +78,7 @@ void Run::State::find_columns() {
   }
   const int inputs = world.plant->inputs();
   if (!trace) {
-    if (inputs > 0 && !world.controller) {
+    if (inputs > 0 && !world.controller && world.continuous() == nullptr) {
       throw InputError("/plant/type",
                        "this plant is driven by a recorded input, so the run needs a trace (--trace FILE, or "
                        "\"input\":{\"trace\":id}) or a controller");
@@ -86,7 +88,7 @@ void Run::State::find_columns() {
   if (!columns.shared.readings)
     throw InputError("/input/trace", "the trace has no column sensor.<node>.<channel> of this scenario's nodes");
   for (std::size_t c = 0; c < columns.shared.input.size(); ++c) {
-    if (columns.shared.input[c] < 0)
+    if (columns.shared.input[c] < 0 && world.continuous() == nullptr)
       throw InputError("/input/trace",
                        "the trace has no column input." + world.plant->input()[c].name + ", which the plant needs");
   }

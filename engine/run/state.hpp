@@ -17,6 +17,7 @@ namespace vigil {
 /// Where a trace's columns stand, -1: not there.
 struct CourseColumns {
   std::vector<int> truth, input;
+  std::vector<int> drives;  ///< of continuous time, by the plant's ports; input has the known ones
   /// node, channel: as received, honest, added by the adversary, tick played back
   std::vector<std::vector<int>> sensor, sent, tampered, source;
   std::vector<int> sensor_state;  ///< node
@@ -32,8 +33,9 @@ struct TraceColumns {
 /// Ids of the world's signals.
 struct WorldSlots {
   int truth = 0, input = 0;
-  int sensor = 0;         ///< of all nodes: see sensor_signals.hpp
-  std::vector<int> link;  ///< state, then injected components, then strength; one a base link
+  int sensor = 0;           ///< of all nodes: see sensor_signals.hpp
+  std::vector<int> link;    ///< state, then injected components, then strength; one a base link
+  std::vector<int> drives;  ///< by the plant's ports, -1 for known inputs; empty: not in continuous time
 };
 
 /// Live values of one command for one lane or attack.
@@ -56,6 +58,7 @@ struct Run::State {
   double dt = 1;
   std::optional<std::int64_t> last_tick;
   std::vector<Command> pending;  ///< by tick, then in the order they were given; applied before their tick
+  Json designs;                  ///< records by lane
 
   World world;
   std::vector<std::string> nodes;
@@ -85,14 +88,16 @@ struct Run::State {
   void set_recorded_lanes();
   void find_columns();
   void declare_signals();
+  void declare_drives();
   void check_trace(const Json& document);
   Eigen::MatrixXd initial_estimates(const Json& document, const Eigen::MatrixXd& P0);
 
   void set_nodes(const Json& document);
   void set_noise(const Json& document);
   CourseColumns course_columns(const std::string& prefix) const;
-  Contender::Side side_of(const std::string& lane, const Method& method) const;
+  Contender::Side side_of(const std::string& lane, const Method& method, bool spared) const;
 
+  void begin_flow();
   void simulate(Sink& sink);
   void replay(Sink& sink);
   void read_course(const CourseColumns& from, Course& course) const;

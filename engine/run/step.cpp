@@ -13,8 +13,9 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 void Run::State::step(Sink& sink) {
   ++k;
   if (k == 0) {
+    if (world.continuous() != nullptr) begin_flow();
     if (world.controller && !trace) world.controller->input(0, shared.truth.data(), shared.upcoming);
-    for (Lane& lane : lanes) lane.begin(world, shared.truth);
+    for (Lane& lane : lanes) lane.begin(world, shared);
   } else {
     while (!pending.empty() && pending.front().k <= k) {
       const Command command = pending.front();
@@ -23,9 +24,10 @@ void Run::State::step(Sink& sink) {
     }
     effects.clear();
     sensor_effects.clear();
+    world.actuators.clear();
     trace ? replay(sink) : simulate(sink);
   }
-  const Tick tick{k, world, shared, graph, base_of, effects, sensor_effects};
+  const Tick tick{k, trace != nullptr, world, shared, graph, base_of, effects, sensor_effects};
   for (Lane& lane : lanes) {
     if (k > 0) lane.tick(tick);
   }
@@ -42,21 +44,29 @@ void Run::State::step(Sink& sink) {
   sink.frame(frame);
 }
 
+/// Tick 0 of continuous time has readings: observers start from them.
+void Run::State::begin_flow() {
+  if (!trace) return shared.begin_flow(world);
+  read_course(columns.shared, shared);
+  shared.readings = shared.sent;
+  shared.received = shared.sent;
+}
+
 /// Steps 1 to 3 of what lanes share. A controlled reference follows its own truth.
 void Run::State::simulate(Sink& sink) {
   world.draw(k);
-  shared.advance(world);
+  adversary.act(k, effects, sensor_effects, world.actuators, sink);
+  shared.advance(world, k, true);
   if (world.controller) world.controller->input(k, shared.truth.data(), shared.upcoming);
   shared.sense(world);
   shared.sent = shared.readings;
-  adversary.act(k, effects, sensor_effects, sink);
   channels.carry(k, shared.sent, sensor_effects, shared.received);
 }
 
 /// The same from a trace. Channels that it describes bypass the adversary; elsewhere the adversary acts.
 void Run::State::replay(Sink& sink) {
   read_course(columns.shared, shared);
-  adversary.act(k, effects, sensor_effects, sink);
+  adversary.act(k, effects, sensor_effects, world.actuators, sink);
   override_links();
   channels.carry(k, shared.sent, sensor_effects, shared.received);
   read_tampering(columns.shared, shared, sensor_effects);
@@ -80,6 +90,8 @@ void Run::State::read_course(const CourseColumns& from, Course& course) const {
     if (std::isfinite(value)) held = value;  // a missing input holds the last one, or is none
     if (!std::isfinite(held)) held = 0;
   }
+  for (std::size_t c = 0; c < from.drives.size(); ++c)
+    course.drives[static_cast<Eigen::Index>(c)] = read(from.drives[c]);
   for (Eigen::Index c = 0; c < course.truth.size(); ++c)
     course.truth[c] = read(from.truth[static_cast<std::size_t>(c)]);
   for (std::size_t i = 0; i < course.sent.size(); ++i) {
@@ -140,9 +152,13 @@ void Run::State::override_links() {
 void Run::State::publish_world() {
   auto* values = frame.values.data();
   for (Eigen::Index c = 0; c < shared.truth.size(); ++c) values[slots.truth + c] = shared.truth[c];
-  if (k == 0) return;
+  if (k == 0 && world.continuous() == nullptr) return;
   for (Eigen::Index c = 0; c < shared.input.size(); ++c) values[slots.input + c] = shared.input[c];
   publish_sensors(shared, sensor_effects, values + slots.sensor);
+  if (k == 0) return;
+  for (std::size_t d = 0; d < slots.drives.size(); ++d) {
+    if (slots.drives[d] >= 0) values[slots.drives[d]] = shared.drives[static_cast<Eigen::Index>(d)];
+  }
   for (std::size_t l = 0; l < slots.link.size(); ++l) {
     const int slot = slots.link[l];
     const auto link = static_cast<Eigen::Index>(l);

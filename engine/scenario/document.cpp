@@ -72,10 +72,9 @@ std::optional<Place> parse_place(std::string_view text) {
   if (const auto rest = behind(text, "link:")) return parse_link(*rest);
   if (const auto rest = behind(text, "sensor:")) return parse_sensor(*rest);
   const auto rest = behind(text, "actuator:");
-  if (!rest || !is_node_id(*rest)) return std::nullopt;
-  Place place;
-  place.kind = PlaceKind::actuator;
-  place.node = *rest;
+  if (!rest) return std::nullopt;
+  auto place = parse_sensor(*rest);
+  if (place) place->kind = PlaceKind::actuator;
   return place;
 }
 

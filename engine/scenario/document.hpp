@@ -16,13 +16,13 @@ namespace vigil {
 
 enum class PlaceKind { link, every_link, sensor, actuator };
 
-/// Where an attack acts: "link:2-5", "link:*", "sensor:3", "sensor:3.range", "actuator:1".
+/// Where an attack acts: "link:2-5", "link:*", "sensor:3", "sensor:3.range", "actuator:1", "actuator:1.w1".
 struct Place {
   PlaceKind kind = PlaceKind::every_link;
   std::string from;     ///< sender's node id, of a link
   std::string to;       ///< receiver's node id, of a link
   std::string node;     ///< of a sensor or actuator
-  std::string channel;  ///< of a sensor; empty: all
+  std::string channel;  ///< of a sensor or actuator; empty: all
 };
 
 /// Reads the text alone; whether its nodes are there is the document's to say. Nothing where it is no place.

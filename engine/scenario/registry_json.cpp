@@ -2,6 +2,7 @@
 #include "engine/methods/method.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/world/controller.hpp"
+#include "engine/world/interconnected/waveform.hpp"
 #include "engine/world/noise.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
@@ -37,9 +38,13 @@ Json laws() {
 }  // namespace
 
 Json registry_json() {
-  return {{"methods", kind_json<MethodMake>()},         {"attacks", kind_json<AttackMake>()},
-          {"plants", kind_json<PlantMake>()},           {"sensors", kind_json<SensorMake>()},
-          {"controllers", kind_json<ControllerMake>()}, {"laws", laws()}};
+  return {{"methods", kind_json<MethodMake>()},
+          {"attacks", kind_json<AttackMake>()},
+          {"plants", kind_json<PlantMake>()},
+          {"sensors", kind_json<SensorMake>()},
+          {"controllers", kind_json<ControllerMake>()},
+          {"signals", kind_json<observer::SignalMake>()},
+          {"laws", laws()}};
 }
 
 }  // namespace vigil

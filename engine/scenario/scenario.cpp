@@ -32,7 +32,7 @@ Json complete(const Json& given, std::vector<Problem>& problems) {
   Json result = {{"vigil", 1}, {"id", section::id(given, problems)}};
   result["title"] = section::title(given, result, problems);
   result["source"] = root.text("source", "");
-  result["family"] = root.choice("family", {"consensus", "sparse", "replay"}, "consensus");
+  result["family"] = root.choice("family", {"consensus", "sparse", "replay", "observer"}, "consensus");
   result["profile"] = root.text("profile", "");
   result["time"] = section::time(given, problems);
   result["plant"] = section::plant(given, problems);
@@ -66,8 +66,9 @@ Scenario Scenario::from_json(const Json& document) {
 }
 
 const std::vector<std::string>& Scenario::preset_ids() {
-  static const std::vector<std::string> ids{"consensus", "consensus-compass",  "consensus-literal", "mrclam",
-                                            "sparse",    "replay-nongaussian", "replay-ubb",        "replay-mixed"};
+  static const std::vector<std::string> ids{"consensus",     "consensus-compass",  "consensus-literal", "mrclam",
+                                            "sparse",        "replay-nongaussian", "replay-ubb",        "replay-mixed",
+                                            "observer-pair", "observer-areas",     "observer-single"};
   return ids;
 }
 
@@ -80,6 +81,9 @@ Scenario Scenario::preset(std::string_view id) {
   if (id == "replay-nongaussian") return from_json(presets::replay_nongaussian());
   if (id == "replay-ubb") return from_json(presets::replay_ubb());
   if (id == "replay-mixed") return from_json(presets::replay_mixed());
+  if (id == "observer-pair") return from_json(presets::observer_pair());
+  if (id == "observer-areas") return from_json(presets::observer_areas());
+  if (id == "observer-single") return from_json(presets::observer_single());
   const std::string near = nearest(id, preset_ids());
   const std::string hint = near.empty() ? "" : "; did you mean " + in_quotes(near) + "?";
   throw InputError("", in_quotes(id) + " is no preset; expected one of " + listed(preset_ids()) + hint,

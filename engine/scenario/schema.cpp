@@ -6,6 +6,7 @@
 #include "engine/scenario/schema_leaf.hpp"
 #include "engine/scenario/sections.hpp"
 #include "engine/world/controller.hpp"
+#include "engine/world/interconnected/waveform.hpp"
 #include "engine/world/noise.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
@@ -87,7 +88,14 @@ Json time() {
       {"Time", "时间"});
 }
 
-Json node() { return object({{"sensor", typed<SensorMake>("sensor", {"Sensor", "传感器"})}}, Json::array({"sensor"})); }
+Json node() {
+  const Json signals = leaf(
+      schema::map("^[A-Za-z0-9_]{1,16}$", typed<observer::SignalMake>("signal", {"Given signal", "给定信号"}), 0, 64),
+      {"Known input, disturbance and fault of a subsystem, by channel: u1, d1, f1",
+       "子系统的已知输入、扰动与故障，按通道：u1、d1、f1"});
+  return object({{"sensor", typed<SensorMake>("sensor", {"Sensor", "传感器"})}, {"signals", signals}},
+                Json::array({"sensor"}));
+}
 
 Json network() {
   const Json named = choice({"none", "ring", "ladder", "path", "complete", "knn2", "knn3", "edges"});
@@ -144,22 +152,23 @@ Json initial(const Json& document) {
 }
 
 Json attack() {
-  const Json place = {
-      {"type", "string"},
-      {"pattern",
-       "^(link:(\\*|[A-Za-z0-9_]{1,16}-[A-Za-z0-9_]{1,16})|sensor:[A-Za-z0-9_]{1,16}(\\.[A-Za-z0-9_]{1,32})?)$"}};
+  const Json place = {{"type", "string"},
+                      {"pattern",
+                       "^(link:(\\*|[A-Za-z0-9_]{1,16}-[A-Za-z0-9_]{1,16})|(sensor|actuator):[A-Za-z0-9_]{1,16}(\\.[A-"
+                       "Za-z0-9_]{1,32})?)$"}};
   const Json places = {{"type", "array"}, {"items", place}, {"minItems", 1}, {"maxItems", 4096}};
   Json enabled = leaf(boolean(), {"Acts", "启用"}, true);
   enabled["x-live"] = true;
-  Json result =
-      object({{"type", kinds<AttackMake>({"Attack", "攻击"})},
-              {"on", leaf(places, {"Where: link:<from>-<to>, link:*, sensor:<node> or sensor:<node>.<channel>",
-                                   "作用位置：link:<from>-<to>、link:*、sensor:<node> 或 sensor:<node>.<channel>"})},
-              {"from", leaf(tick(0, false), {"First tick", "起始步"}, 1)},
-              {"to", leaf(tick(0, true), {"Last tick; none: to the end", "结束步；无：直至结束"}, nullptr)},
-              {"enabled", std::move(enabled)},
-              {"params", params_slot()}},
-             Json::array({"type", "on"}));
+  Json result = object(
+      {{"type", kinds<AttackMake>({"Attack", "攻击"})},
+       {"on",
+        leaf(places, {"Where: link:<from>-<to>, link:*, sensor:<node>[.<channel>] or actuator:<node>[.<channel>]",
+                      "作用位置：link:<from>-<to>、link:*、sensor:<node>[.<channel>] 或 actuator:<node>[.<channel>]"})},
+       {"from", leaf(tick(0, false), {"First tick", "起始步"}, 1)},
+       {"to", leaf(tick(0, true), {"Last tick; none: to the end", "结束步；无：直至结束"}, nullptr)},
+       {"enabled", std::move(enabled)},
+       {"params", params_slot()}},
+      Json::array({"type", "on"}));
   result["allOf"] = branches<AttackMake>("attack", "type");
   return result;
 }
@@ -227,7 +236,7 @@ Json properties(const Json& document) {
           {"id", leaf(id, {"Id", "标识"})},
           {"title", title()},
           {"source", leaf(text(), {"Where it comes from", "来源"}, "")},
-          {"family", leaf(choice({"consensus", "sparse", "replay"}), {"Family", "类别"}, "consensus")},
+          {"family", leaf(choice({"consensus", "sparse", "replay", "observer"}), {"Family", "类别"}, "consensus")},
           {"profile", leaf(text(), {"Profile", "参数组"}, "")},
           {"time", time()},
           {"plant", typed<PlantMake>("plant", {"Plant", "被控对象"})},
@@ -257,6 +266,7 @@ Json Scenario::schema() const {
   define<ControllerMake>("controller", definitions);
   define<AttackMake>("attack", definitions);
   define<MethodMake>("method", definitions);
+  define<observer::SignalMake>("signal", definitions);
   result["$defs"] = std::move(definitions);
   return result;
 }

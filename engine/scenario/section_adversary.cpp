@@ -10,7 +10,8 @@
 namespace vigil {
 namespace {
 
-constexpr const char* kPlaces = "link:<from>-<to>, link:*, sensor:<node> or sensor:<node>.<channel>";
+constexpr const char* kPlaces =
+    "link:<from>-<to>, link:*, sensor:<node>, sensor:<node>.<channel>, actuator:<node> or actuator:<node>.<channel>";
 
 /// The document as an attack sees it: its nodes and, where it tells, its graph.
 struct Ground {
@@ -59,17 +60,11 @@ std::optional<Problem> check_place(const std::string& text, const Ground& ground
   if (!place) return Problem{pointer, "on is " + in_quotes(text) + ", which is no place; expected " + kPlaces, kPlaces};
   if (place->kind == PlaceKind::every_link) return std::nullopt;
   if (place->kind == PlaceKind::link) return check_link(*place, ground, text, pointer);
-  if (place->kind == PlaceKind::sensor) {  // the channel is checked where the sensor is made
-    if (ground.index(place->node) >= 0) return std::nullopt;
-    return Problem{pointer,
-                   in_quotes(text) + " names node " + in_quotes(place->node) +
-                       ", which is not there; expected nodes of " + listed(ground.nodes),
-                   listed(ground.nodes)};
-  }
-  return Problem{
-      pointer,
-      in_quotes(text) + " is refused: attacks act on links and sensors so far, not on actuators; expected " + kPlaces,
-      kPlaces};
+  if (ground.index(place->node) >= 0) return std::nullopt;  // the channel is checked where the run is made
+  return Problem{pointer,
+                 in_quotes(text) + " names node " + in_quotes(place->node) +
+                     ", which is not there; expected nodes of " + listed(ground.nodes),
+                 listed(ground.nodes)};
 }
 
 Json places(Fields& fields, const Json& document, std::vector<Problem>& problems) {

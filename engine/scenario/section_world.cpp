@@ -5,6 +5,7 @@
 #include "engine/scenario/sections.hpp"
 #include "engine/scenario/typed.hpp"
 #include "engine/world/controller.hpp"
+#include "engine/world/interconnected/waveform.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
 
@@ -21,10 +22,35 @@ Json member(const Json& given, const char* key, const Json& fallback) {
   return place == given.end() ? fallback : *place;
 }
 
+/// Given signals of a plant in continuous time, by channel. Whether the plant has the channel is the run's to say.
+Json signals(Fields& fields, std::vector<Problem>& problems) {
+  Json result = Json::object();
+  const Json& given = fields.at("signals");
+  if (!given.is_object()) {
+    fields.wrong("signals", "an object of signals keyed by their channels, such as f1");
+    return result;
+  }
+  for (const auto& [channel, value] : given.items()) {
+    const std::string pointer = child(fields.pointer("signals"), channel);
+    if (!is_node_id(channel)) {
+      problems.push_back(
+          {pointer, in_quotes(channel) + " is no channel; expected a name such as u1, d1 or f1", "u1, d1, f1"});
+      continue;
+    }
+    Fields signal(value, pointer, problems);
+    signal.known({"type", "params"});
+    Json complete = Json::object();
+    if (value.is_object()) complete_typed<observer::SignalMake>(signal, "type", "signal", complete, problems);
+    result[channel] = std::move(complete);
+  }
+  return result;
+}
+
 Json node(const Json& given, const std::string& pointer, std::vector<Problem>& problems) {
   Json result = {{"sensor", Json::object()}};
   Fields fields(given, pointer, problems);
-  fields.known({"sensor"});
+  fields.known({"sensor", "signals"});
+  if (fields.has("signals")) result["signals"] = signals(fields, problems);
   if (!fields.has("sensor")) {
     if (given.is_object()) fields.missing("sensor", "{\"type\",\"params\"}");
     return result;

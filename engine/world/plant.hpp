@@ -25,6 +25,8 @@ struct ErrorGroup {
   std::string unit;
 };
 
+class ContinuousPlant;
+
 /// x(k) = f(x(k-1), u(k)) + w, w ~ N(0, Q). Immutable and shared.
 class Plant {
  public:
@@ -42,6 +44,9 @@ class Plant {
 
   /// True where advance() is x -> F x with a constant F: what windowed regressions need.
   virtual bool linear() const { return false; }
+
+  /// Null: its time goes in ticks.
+  virtual const ContinuousPlant* continuous() const { return nullptr; }
 
   int states() const { return static_cast<int>(state().size()); }
   int inputs() const { return static_cast<int>(input().size()); }

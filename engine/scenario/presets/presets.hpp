@@ -19,5 +19,9 @@ Json sparse();
 Json replay_nongaussian();
 Json replay_ubb();
 Json replay_mixed();
+/// Seed 002: example 3.1, comparison 1 (four areas) and comparison 2 (subsystem 2 alone), in continuous time.
+Json observer_pair();
+Json observer_areas();
+Json observer_single();
 
 }  // namespace vigil::presets

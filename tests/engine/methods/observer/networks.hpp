@@ -7,8 +7,8 @@
 
 #include "engine/methods/observer/printed_gains.hpp"
 #include "engine/world/interconnected/examples.hpp"
-#include "engine/methods/observer/simulation.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
+#include "tests/engine/methods/observer/network_simulation.hpp"
 
 namespace vigil::observer {
 
