@@ -1,4 +1,5 @@
 /// What the server's API answers, as its contract says. Nothing here is computed by the page.
+import type { DesignItem } from './designs';
 
 export interface Localised {
   en: string;
@@ -80,6 +81,8 @@ export interface RunItem {
 }
 
 export interface RunDetail extends RunItem {
+  /** Gains that it still waits for. */
+  designing?: DesignItem[];
   design: Record<string, Record<string, unknown>>;
   commands: { k: number; body: Record<string, unknown> }[];
   document: Record<string, unknown>;

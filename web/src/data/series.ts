@@ -116,22 +116,37 @@ export function difference(a: Series, b: Series): Series {
   return { k: k.subarray(0, length), lo: low, hi: raw ? low : hi.subarray(0, length), joined: joined.subarray(0, length) };
 }
 
+/** What is made of series that stay as they are, kept as long as they are: a drawing asks for it again and again. */
+const made = new WeakMap<Float32Array, { with: Float32Array | null; series: Series }>();
+
+function kept(from: Float32Array, beside: Float32Array | null, make: () => Series): Series {
+  const known = made.get(from);
+  if (known?.with === beside) return known.series;
+  const series = make();
+  made.set(from, { with: beside, series });
+  return series;
+}
+
 /**
  * a - b of two signals that move together. Of reduced samples of the same ticks the difference of their least and of their
  * greatest values: both lie within the true difference's range, however far the two moved between two points.
  */
 export function closeDifference(a: Series, b: Series): Series {
-  const same = a.lo !== a.hi && a.k.length === b.k.length && a.k.every((k, i) => k === b.k[i]);
-  if (!same) return difference(a, b);
-  const low = a.lo.map((v, i) => v - b.lo[i]!);
-  const high = a.hi.map((v, i) => v - b.hi[i]!);
-  return { k: a.k, lo: low.map((v, i) => Math.min(v, high[i]!)), hi: high.map((v, i) => Math.max(v, low[i]!)), joined: a.joined };
+  return kept(a.hi, b.hi, () => {
+    const same = a.lo !== a.hi && a.k.length === b.k.length && a.k.every((k, i) => k === b.k[i]);
+    if (!same) return difference(a, b);
+    const low = a.lo.map((v, i) => v - b.lo[i]!);
+    const high = a.hi.map((v, i) => v - b.hi[i]!);
+    return { k: a.k, lo: low.map((v, i) => Math.min(v, high[i]!)), hi: high.map((v, i) => Math.max(v, low[i]!)), joined: a.joined };
+  });
 }
 
 /** Absolute values; of reduced samples the greatest of each bucket. */
 export function magnitude(series: Series): Series {
-  const size = series.lo.map((v, i) => Math.max(Math.abs(v), Math.abs(series.hi[i]!)));
-  return { ...series, lo: size, hi: size };
+  return kept(series.hi, null, () => {
+    const size = series.lo.map((v, i) => Math.max(Math.abs(v), Math.abs(series.hi[i]!)));
+    return { ...series, lo: size, hi: size };
+  });
 }
 
 /** The newest value at or before tick k, no older than `reach` ticks; NaN if none. */

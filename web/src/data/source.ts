@@ -98,11 +98,15 @@ export class Source {
     return this.read(this.windows, name, from, to);
   }
 
-  /** Every tick of a window, for what is made of two signals: their extremes would not do. Of a run that goes on, or a window too wide for that, extremes all the same. */
+  /**
+   * Every tick of a window, for what is made of two signals: their extremes would not do. Extremes all the same until it is
+   * there, of a run that goes on, and of a window too wide for that.
+   */
   exact(name: string, from: number, to: number): Series {
     const wide = Math.min(to, this.head) - Math.max(0, from);
-    const loader = this.growing || wide <= 0.8 * windowPoints || wide > widest ? this.windows : this.exacts;
-    return this.read(loader, name, from, to);
+    if (this.growing || wide <= 0.8 * windowPoints || wide > widest) return this.get(name, from, to);
+    const whole = this.read(this.exacts, name, from, to);
+    return whole.k.length ? whole : this.get(name, from, to);
   }
 
   /** A signal about a single tick, or a short way up to it: every tick, however wide the window is. */

@@ -1,6 +1,6 @@
 /// A described system as a scenario's document, and back: where what is wrong with it has its place.
 import { isObject, type Json, type JsonObject } from '../../form/json';
-import { emptySubsystem, matrixNames, scalarNames, shapes, signalKinds, withSizes, type Cells, type MatrixName, type ScalarName, type SignalKind, type Sizes, type SubsystemDraft, type SystemDraft } from './draft';
+import { emptySubsystem, matrixNames, shapes, signalKinds, withSizes, type Cells, type MatrixName, type ScalarName, type SignalKind, type Sizes, type SubsystemDraft, type SystemDraft } from './draft';
 import { laneChoices } from './lanes';
 
 export const subsystemPointer = (index: number): string => `/plant/params/subsystems/${index + 1}`;
@@ -20,7 +20,8 @@ const isQuiet = (pieces: Cells): boolean => pieces.every((piece) => piece.slice(
 function subsystemDocument({ sizes, matrices, scalars, phi }: SubsystemDraft): JsonObject {
   const has = (name: MatrixName): boolean => sizes[shapes[name][0]] > 0 && sizes[shapes[name][1]] > 0;
   const own: JsonObject = Object.fromEntries(matrixNames.filter(has).map((name) => [name, matrices[name]]));
-  for (const name of scalarNames) if (scalars[name] !== null) own[name] = scalars[name];
+  own.alpha = scalars.alpha;
+  own.tau = scalars.tau;
   own.phi = sizes.r > 0 ? phi : 'none';
   return own;
 }
@@ -45,6 +46,19 @@ function adversary(system: SystemDraft): JsonObject {
   return result;
 }
 
+/** What an observer is told of the subsystems: varsigma of each, and kappa where every nonlinear one has it. */
+function told({ subsystems }: SystemDraft): JsonObject {
+  const nonlinear = subsystems.filter(({ sizes }) => sizes.r > 0);
+  const fixed = nonlinear.length > 0 && nonlinear.every(({ scalars }) => scalars.kappa !== null);
+  // One that has no nonlinearity has a place in the list all the same.
+  return { varsigma: subsystems.map(({ scalars }) => scalars.varsigma), ...(fixed ? { kappa: subsystems.map(({ scalars, sizes }) => (sizes.r > 0 ? scalars.kappa : 1)) } : {}) };
+}
+
+function laneDocument(system: SystemDraft, lane: string): JsonObject {
+  const { method, params } = laneChoices[lane]!;
+  return { method, params: method === 'intermediate_observer' ? { ...params, ...told(system) } : params };
+}
+
 export function stepsOf({ dt, duration }: SystemDraft): number {
   return typeof dt === 'number' && typeof duration === 'number' && dt > 0 ? Math.max(1, Math.round(duration / dt)) : 1;
 }
@@ -52,6 +66,10 @@ export function stepsOf({ dt, duration }: SystemDraft): number {
 /** Seconds from which on the figures count: what comes before is the observers' settling. */
 export function countedFrom({ duration }: SystemDraft): number {
   return typeof duration === 'number' ? Math.min(2, duration / 4) : 0;
+}
+
+function firstCounted(system: SystemDraft): number {
+  return typeof system.dt === 'number' && system.dt > 0 ? Math.round(countedFrom(system) / system.dt) + 1 : 1;
 }
 
 export function documentOf(system: SystemDraft, title = ''): JsonObject {
@@ -66,12 +84,14 @@ export function documentOf(system: SystemDraft, title = ''): JsonObject {
     plant: { type: 'interconnected', params: { subsystems: numbered(subsystemDocument), couplings: Object.fromEntries(system.couplings.map((one) => [couplingKey(one), one.H])) } },
     nodes: numbered((subsystem, i) => {
       const signals = signalsDocument(subsystem);
-      return { sensor: { type: 'subsystem', params: { number: i + 1, R: 0 } }, ...(Object.keys(signals).length ? { signals } : {}) };
+      return { sensor: { type: 'subsystem', params: { number: i + 1 } }, ...(Object.keys(signals).length ? { signals } : {}) };
     }),
+    network: { graph: 'none' },
+    noise: { Q: 0, P0: 0 },
     initial: { truth: system.subsystems.flatMap((subsystem) => subsystem.x0) },
     adversary: adversary(system),
-    lanes: Object.fromEntries(system.lanes.filter((lane) => laneChoices[lane]).map((lane) => [lane, { ...laneChoices[lane]! }])),
-    metrics: { window: [countedFrom(system), typeof system.duration === 'number' ? system.duration : 0] },
+    lanes: Object.fromEntries(system.lanes.filter((lane) => laneChoices[lane]).map((lane) => [lane, laneDocument(system, lane)])),
+    metrics: { window: { from: firstCounted(system) } },
   };
 }
 
@@ -88,11 +108,12 @@ export function draftOf(document: JsonObject): SystemDraft | null {
   const ids = entries.map(([id]) => id);
   const x0 = objectOf(document.initial).truth;
   let offset = 0;
+  const lane = observerOf(document);
   const subsystems = entries.map(([id, value], index) => {
     const own = draftSubsystem(objectOf(value), objectOf(objectOf(objectOf(document.nodes)[id]).signals), objectOf(document.adversary), index, id);
     const x = Array.isArray(x0) ? x0.slice(offset, offset + own.sizes.n) : [];
     offset += own.sizes.n;
-    return withSizes({ ...own, x0: x }, own.sizes);
+    return withSizes({ ...own, scalars: { ...own.scalars, varsigma: entryOf(lane.varsigma, index) ?? 1, kappa: own.sizes.r > 0 ? entryOf(lane.kappa, index) : null }, x0: x }, own.sizes);
   });
   const couplings = Object.entries(objectOf(params.couplings)).flatMap(([key, H]) => {
     const [from, to] = ids.flatMap((a, i) => ids.flatMap((b, j) => (key === `${a}-${b}` ? [[i, j] as const] : [])))[0] ?? [-1, -1];
@@ -104,12 +125,20 @@ export function draftOf(document: JsonObject): SystemDraft | null {
   return { subsystems, couplings, dt, duration: typeof time.steps === 'number' ? Number((time.steps * dt).toPrecision(12)) : 10, lanes };
 }
 
+/** What the first intermediate observer of a document is set to. */
+function observerOf(document: JsonObject): JsonObject {
+  const lanes = Object.values(objectOf(document.lanes)).map(objectOf);
+  return objectOf(lanes.find(({ method }) => method === 'intermediate_observer')?.params);
+}
+
+const entryOf = (list: Json | undefined, index: number): Json => (Array.isArray(list) ? (list[index] ?? null) : null);
+
 function draftSubsystem(own: JsonObject, signals: JsonObject, attacks: JsonObject, index: number, id: string): SubsystemDraft {
   const matrices = Object.fromEntries(matrixNames.map((name) => [name, cellsOf(own[name])])) as Record<MatrixName, Cells>;
   const width = (name: MatrixName): number => matrices[name][0]?.length ?? 0;
   const sizes: Sizes = { n: matrices.A.length, m: width('B'), p: matrices.C.length, q: width('D'), dd: width('Dd'), g: width('G'), r: width('F') };
   const blank = emptySubsystem(sizes);
-  const scalars = Object.fromEntries(scalarNames.map((name) => [name, own[name] ?? blank.scalars[name]])) as Record<ScalarName, Json>;
+  const scalars: Record<ScalarName, Json> = { ...blank.scalars, alpha: own.alpha ?? 1, tau: own.tau ?? 0 };
   const piecesOf = (value: Json | undefined): Cells => cellsOf(objectOf(objectOf(value).params).pieces);
   const read = (kind: SignalKind, channel: number): Cells => {
     const found = kind === 'w' ? piecesOf(attackOn(attacks, `actuator:${id}.w${channel + 1}`) ?? attacks[attackName(index, channel)]) : piecesOf(signals[`${kind}${channel + 1}`]);

@@ -33,7 +33,8 @@ export const pieceColumns = ['until', 'offset', 'slope', 'sine', 'cosine', 'rate
 
 export const nonlinearities = ['none', 'sine', 'tanh', 'sine_last'] as const;
 
-export const scalarNames = ['alpha', 'tau', 'mu', 'varsigma', 'kappa'] as const;
+/** The last two are the lanes' to know, one a subsystem. */
+export const scalarNames = ['alpha', 'tau', 'varsigma', 'kappa'] as const;
 export type ScalarName = (typeof scalarNames)[number];
 
 export interface SubsystemDraft {
@@ -74,7 +75,7 @@ const quiet = (): Cells => [[0, 0, 0, 0, 0, 0, 0]];
 export function emptySubsystem(sizes: Partial<Sizes> = {}): SubsystemDraft {
   const all: Sizes = { n: 2, m: 0, p: 2, q: 1, dd: 0, g: 0, r: 0, ...sizes };
   const matrices = Object.fromEntries(matrixNames.map((name) => [name, []])) as unknown as Record<MatrixName, Cells>;
-  return withSizes({ sizes: all, matrices, scalars: { alpha: 1, tau: 0, mu: 1, varsigma: 1, kappa: null }, phi: 'none', x0: [], signals: { w: [], d: [], f: [], u: [] } }, all);
+  return withSizes({ sizes: all, matrices, scalars: { alpha: 1, tau: 0, varsigma: 1, kappa: null }, phi: 'none', x0: [], signals: { w: [], d: [], f: [], u: [] } }, all);
 }
 
 /** The subsystem with other sizes: what it has of every matrix and signal stays, the rest is zero. */

@@ -32,7 +32,7 @@ function pair(): SystemDraft {
       F: column(1, 0, 1, 0),
       G: column(1, 0, 1),
     },
-    { scalars: { alpha: 1, tau: 2, mu: 1, varsigma: 9, kappa: 6 }, phi: 'sine', x0: [0.03358, 0.005, 0, 0], signals: { w: [w1], d: [[piece(20, 0, 1, 0, 0.7 * pi)]], f: [f1], u: [] } },
+    { scalars: { alpha: 1, tau: 2, varsigma: 9, kappa: 6 }, phi: 'sine', x0: [0.03358, 0.005, 0, 0], signals: { w: [w1], d: [[piece(20, 0, 1, 0, 0.7 * pi)]], f: [f1], u: [] } },
   );
   const two = subsystem(
     {
@@ -44,7 +44,7 @@ function pair(): SystemDraft {
       F: column(1, 0, 1),
       G: column(1, -2, 1),
     },
-    { scalars: { alpha: -1, tau: 3, mu: 1, varsigma: 3, kappa: 5 }, phi: 'sine', x0: [-0.0626, 0, 0], signals: { w: [w2], d: [[piece(20, 0, 0, -1, 0.4 * pi)]], f: [f2], u: [] } },
+    { scalars: { alpha: -1, tau: 3, varsigma: 3, kappa: 5 }, phi: 'sine', x0: [-0.0626, 0, 0], signals: { w: [w2], d: [[piece(20, 0, 0, -1, 0.4 * pi)]], f: [f2], u: [] } },
   );
   return {
     subsystems: [one, two],

@@ -45,7 +45,7 @@ describe('a description', () => {
     expect(Object.values(pair.adversary).map(({ on }) => on)).toEqual([['actuator:1.w1'], ['actuator:2.w1']]);
     expect(Object.keys(pair.nodes['1']!.signals!)).toEqual(['d1', 'f1']);
     const empty = doc(start('empty'));
-    expect(Object.keys(empty.plant.params.subsystems['1']!)).toEqual(['A', 'C', 'D', 'alpha', 'tau', 'mu', 'varsigma', 'phi']);
+    expect(Object.keys(empty.plant.params.subsystems['1']!)).toEqual(['A', 'C', 'D', 'alpha', 'tau', 'phi']);
     expect(empty.adversary).toEqual({});
   });
 

@@ -11,15 +11,14 @@ export function nodeMetric(metrics: readonly Metric[], lane: string, node: strin
   return typeof value === 'number' && Number.isFinite(value) ? value : null;
 }
 
-/** Ticks that the figures count, (from, to], as the scenario's metrics say; all of them where it says nothing. */
+/** Ticks that the figures count, (from, to], as the scenario's metrics say by the first and the last; all of them where it says nothing. */
 export function windowOf(run: Pick<RunDetail, 'document' | 'progress'>): { from: number; to: number; seconds: [number, number] } {
-  const window = (run.document?.metrics as { window?: unknown } | undefined)?.window;
+  const window = (run.document?.metrics as { window?: { from?: unknown; to?: unknown } } | undefined)?.window;
   const time = run.document?.time as { steps?: unknown } | undefined;
   const dt = run.progress.dt || 1;
-  const [a, b] = Array.isArray(window) ? window.map(Number) : [];
   const last = typeof time?.steps === 'number' ? time.steps : run.progress.k;
-  const from = Number.isFinite(a) ? Math.round(a! / dt) : 0;
-  const to = Number.isFinite(b) ? Math.round(b! / dt) : last;
+  const from = typeof window?.from === 'number' ? Math.max(0, window.from - 1) : 0;
+  const to = typeof window?.to === 'number' ? window.to : last;
   return { from, to, seconds: [from * dt, to * dt] };
 }
 
@@ -42,9 +41,9 @@ export function trueSignals(subsystems: readonly SubsystemModel[]): string[] {
   return subsystems.flatMap(({ channels }) => channels.flatMap(({ truth }) => (truth ? [truth] : [])));
 }
 
-/** Size of all attacks (or faults) of a subsystem together, as the run's figures take them; null while it is not known. */
+/** Size of all attacks (or faults) of a subsystem together, the norm over its channels as the run's figures take it; null while it is not known. */
 export function sizeOf(subsystem: SubsystemModel, kind: 'attack' | 'fault', sizes: ReadonlyMap<string, number>): number | null {
   const own = subsystem.channels.filter((channel) => channel.kind === kind && channel.truth);
   if (!own.length || !own.every(({ truth }) => sizes.has(truth!))) return null;
-  return Math.max(...own.map(({ truth }) => sizes.get(truth!)!));
+  return Math.hypot(...own.map(({ truth }) => sizes.get(truth!)!));
 }

@@ -36,7 +36,7 @@ export const run = {
   ],
   design: { intermediate_fast: record, intermediate_printed: { ...record, solver: 'given', objective: null, max_real_pole: -0.533 } },
   document: {
-    family: 'observer', time: { dt: 0.001, steps: 20000 }, plant: { type: 'pair', params: {} }, metrics: { window: [8, 20] },
+    family: 'observer', time: { dt: 0.001, steps: 20000 }, plant: { type: 'pair', params: {} }, metrics: { window: { from: 8001 } },
     lanes: {
       intermediate_fast: { method: 'intermediate_observer', params: { structure: 'proposed', gains: 'design', preset: 'fast' } },
       intermediate_printed: { method: 'intermediate_observer', params: { structure: 'proposed', gains: 'printed' } },

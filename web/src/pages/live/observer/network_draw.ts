@@ -31,7 +31,7 @@ export function places(count: number, width: number, height: number): Place[] {
   const start = count === 4 ? (-3 * Math.PI) / 4 : Math.PI;
   return Array.from({ length: count }, (_, i) => {
     const angle = start + (2 * Math.PI * i) / count;
-    return { x: cx + Math.min(rx, 300) * Math.cos(angle), y: cy + (count === 2 ? 0 : ry * Math.sin(angle)) };
+    return { x: cx + Math.min(rx, count === 2 ? 120 : 300) * Math.cos(angle), y: cy + (count === 2 ? 0 : ry * Math.sin(angle)) };
   });
 }
 
