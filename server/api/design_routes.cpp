@@ -3,6 +3,7 @@
 #include "server/api/doc.hpp"
 #include "server/api/guard.hpp"
 #include "server/api/read_body.hpp"
+#include "server/synthesis/designer.hpp"
 
 namespace vigil {
 namespace {

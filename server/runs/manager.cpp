@@ -6,6 +6,7 @@
 
 #include "engine/run/trace.hpp"
 #include "server/runs/designs.hpp"
+#include "server/runs/waiting_run.hpp"
 
 namespace vigil {
 
@@ -15,7 +16,7 @@ RunManager::RunManager(LogWriter& log, const LogReader& reader, Hub& hub, Manage
       hub_(hub),
       options_(std::move(options)),
       keeper_([this] { keep_house(); }),
-      designer_(log, reader, options_.design, [this] { look_at_designs(); }) {}
+      designer_(std::make_unique<Designer>(log, reader, options_.design, [this] { look_at_designs(); })) {}
 
 RunManager::~RunManager() {
   stop();
@@ -48,7 +49,7 @@ CreatedRun RunManager::create(RunOrder order) {
   const std::shared_ptr<void> leave = count_in();  // after the run is in the queue
   std::vector<DesignTask> open = open_tasks(order);
   std::erase_if(open, [&](const DesignTask& task) {
-    Json record = designer_.known(task);
+    Json record = designer_->known(task);
     if (record.is_null()) return false;
     order.designs[task.lane] = std::move(record);
     return true;
@@ -181,7 +182,7 @@ void RunManager::stop() {
     for (const auto& [id, run] : runs_) run->stop(run->started() ? "stopped" : "interrupted");
     for (const auto& [id, run] : waiting_) waiting.push_back(id);
   }
-  designer_.stop();
+  designer_->stop();
   for (const RunId id : waiting) stop_designing(id, "interrupted");
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return runs_.empty() && waiting_.empty() && beginning_ == 0; });

@@ -16,9 +16,12 @@
 #include "server/hub/hub.hpp"
 #include "server/runs/live_run.hpp"
 #include "server/runs/order.hpp"
-#include "server/synthesis/designer.hpp"
+#include "server/synthesis/design_item.hpp"
 
 namespace vigil {
+
+class Designer;
+struct DesignTask;
 
 struct ManagerOptions {
   int max_runs = 4;            ///< beside the demo
@@ -45,7 +48,7 @@ class RunManager {
   bool stop_designing(RunId id, const std::string& state);
   /// What a run that is designing waits for; empty for all others.
   std::vector<DesignItem> designing(RunId id) const;
-  Designer& designer() { return designer_; }
+  Designer& designer() { return *designer_; }
   /// Ends the run if it is live and deletes it from the log and the hub. Throws LogError (missing), RunRefusal (busy).
   void remove(RunId id);
   /// The content of a trace in the log, shared while anyone uses it; null where there is none. Throws InputError where
@@ -64,14 +67,7 @@ class RunManager {
   void stop();
 
  private:
-  /// A run whose gains are not all known.
-  struct Waiting {
-    RunOrder order;
-    std::vector<DesignTask> tasks;  ///< that are open
-    Designer::Holder holder = 0;
-    bool going_on = false;            ///< they are found: it is being made
-    std::optional<std::string> stop;  ///< state it shall end in, asked for meanwhile
-  };
+  struct Waiting;  ///< a run whose gains are not all known; see waiting_run.hpp
   using WaitingPointer = std::shared_ptr<Waiting>;
 
   std::shared_ptr<void> count_in();
@@ -95,7 +91,7 @@ class RunManager {
   std::condition_variable changed_;
   std::map<RunId, std::shared_ptr<LiveRun>> runs_;
   std::map<RunId, WaitingPointer> waiting_;
-  Designer::Holder last_holder_ = 0;
+  std::int64_t last_holder_ = 0;
   std::deque<RunId> queue_;
   std::deque<RunId> ended_;
   int beginning_ = 0;  ///< being created or ended, outside the lock
@@ -104,7 +100,7 @@ class RunManager {
   std::mutex trace_mutex_;
   std::map<std::int64_t, std::weak_ptr<const Trace>> traces_;
   std::thread keeper_;
-  Designer designer_;  ///< calls look_at_designs() from its thread
+  std::unique_ptr<Designer> designer_;  ///< calls look_at_designs() from its thread
 };
 
 }  // namespace vigil

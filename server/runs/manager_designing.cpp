@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/runs/manager.hpp"
+#include "server/runs/waiting_run.hpp"
 
 namespace vigil {
 namespace {
@@ -32,7 +32,7 @@ CreatedRun RunManager::create_designing(RunOrder order, std::vector<DesignTask> 
     const std::lock_guard lock(mutex_);
     waiting->holder = ++last_holder_;
   }
-  designer_.ask(tasks, waiting->holder);
+  designer_->ask(tasks, waiting->holder);
   RunRecord record = make_record(order);
   record.state = "designing";
   CreatedRun created;
@@ -42,11 +42,11 @@ CreatedRun RunManager::create_designing(RunOrder order, std::vector<DesignTask> 
       for (const Command& command : order.commands) log_.command(created.id, command);
     }
   } catch (...) {
-    designer_.release(waiting->holder);
+    designer_->release(waiting->holder);
     throw;
   }
   if (!created.fresh) {
-    designer_.release(waiting->holder);
+    designer_->release(waiting->holder);
     return created;
   }
   waiting->order = std::move(order);
@@ -74,7 +74,7 @@ void RunManager::look_at_designs() {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, waiting] : waiting_) {
       const auto settled = [this](const DesignTask& task) {
-        const auto item = designer_.find(task.key);
+        const auto item = designer_->find(task.key);
         return !item || item->settled();
       };
       if (waiting->going_on || !std::all_of(waiting->tasks.begin(), waiting->tasks.end(), settled)) continue;
@@ -99,7 +99,7 @@ void RunManager::go_on(RunId id, const WaitingPointer& waiting) {
     log_.update(id, update);
     announce(id, waiting->order, "queued");
     begin(id, waiting->order, std::move(run));
-    designer_.release(waiting->holder);
+    designer_->release(waiting->holder);
     return;
   } catch (const std::exception& failure) {
     error = failure.what();
@@ -121,7 +121,7 @@ void RunManager::go_on(RunId id, const WaitingPointer& waiting) {
 /// Throws InputError with the sentence that the run ends with, where it cannot be made.
 Run RunManager::make_waiting(Waiting& waiting) {
   for (const DesignTask& task : waiting.tasks) {
-    const auto item = designer_.find(task.key);
+    const auto item = designer_->find(task.key);
     if (!item || !item->record.is_object()) {
       throw InputError("/lanes/" + task.lane, "Lane " + task.lane + ": no certified gains: " +
                                                   (item ? item->reason : std::string("the design was given up")));
@@ -161,7 +161,7 @@ std::vector<DesignItem> RunManager::designing(RunId id) const {
   std::vector<DesignItem> items;
   if (!waiting) return items;
   for (const DesignTask& task : waiting->tasks) {
-    auto item = designer_.find(task.key);
+    auto item = designer_->find(task.key);
     if (!item) continue;
     item->lane = task.lane;
     items.push_back(std::move(*item));
@@ -170,7 +170,7 @@ std::vector<DesignItem> RunManager::designing(RunId id) const {
 }
 
 void RunManager::end_waiting(RunId id, const Waiting& waiting, const std::string& state, const std::string& error) {
-  designer_.release(waiting.holder);
+  designer_->release(waiting.holder);
   RunUpdate update;
   update.state = state;
   update.ended = wall_now();

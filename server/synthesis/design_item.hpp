@@ -1,12 +1,20 @@
-/// One design problem and what has become of it.
+/// One design problem and what has become of it. Free of matrices, for those who only pass it on.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "engine/core/json.hpp"
 
 namespace vigil {
+
+struct DesignerOptions {
+  std::string executable;         ///< whose `solve-sdp` is started; empty: the one that runs now
+  double limit = 120;             ///< s a solve may take
+  std::size_t max_waiting = 64;   ///< problems that wait for their turn
+  std::size_t max_settled = 256;  ///< answers kept in memory; those that stay true are in the log, too
+};
 
 struct DesignItem {
   enum class State { queued, solving, done, refused };

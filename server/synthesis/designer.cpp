@@ -83,11 +83,8 @@ std::vector<DesignItem> Designer::ask(const std::vector<DesignTask>& tasks, std:
       items.push_back(place->second);
     } else {
       const Shared entry = entry_of(task);
-      if (holder) {
-        entry->holders.insert(*holder);
-      } else {
-        entry->kept = true;
-      }
+      if (holder) entry->holders.insert(*holder);
+      entry->kept = entry->kept || entry->holders.empty();
       items.push_back(now(*entry));
     }
     items.back().lane = task.lane;

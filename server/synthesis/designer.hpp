@@ -24,13 +24,6 @@ namespace vigil {
 class LogReader;
 class LogWriter;
 
-struct DesignerOptions {
-  std::string executable;         ///< whose `solve-sdp` is started; empty: the one that runs now
-  double limit = 120;             ///< s a solve may take
-  std::size_t max_waiting = 64;   ///< problems that wait for their turn
-  std::size_t max_settled = 256;  ///< answers kept in memory; those that stay true are in the log, too
-};
-
 class Designer {
  public:
   /// `settled` is called on the designer's own thread, with nothing locked, after each problem that was settled. The
@@ -43,9 +36,9 @@ class Designer {
   // Safe from any thread.
 
   using Holder = std::int64_t;
-  /// Tells what is known of these, and queues what is not. A solve that timed out or crashed is tried again. Asked for
-  /// by a holder they are solved as long as one holds them, otherwise for their own sake. Throws RunRefusal: too many
-  /// wait, or the server is stopping; nothing was asked for then.
+  /// Tells what is known of these, and queues what is not. A solve that timed out or crashed is tried again. What a
+  /// holder asks for is solved as long as one holds it; what nobody holds is solved for its own sake. Throws
+  /// RunRefusal: too many wait, or the server is stopping; nothing was asked for then.
   std::vector<DesignItem> ask(const std::vector<DesignTask>& tasks, std::optional<Holder> holder = {});
   /// What nobody wants any more is given up: out of the queue, its solver killed.
   void release(Holder holder);
