@@ -137,6 +137,7 @@ Example areas(AreaOutputs outputs, Topology topology, bool attack_area_2) {
 Example single() {
   Example e;
   e.network.subsystems = {second_of_pair()};
+  e.network.subsystems[0].name = "1";  // alone it is the first
   e.x0 = {column({-.0626, 0, 0})};
   e.signals = {signals_of_second()};
   e.horizon = 20;

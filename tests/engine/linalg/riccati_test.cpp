@@ -150,6 +150,7 @@ TEST(Riccati, ADoubleModeNeedsTwoInputs) {
   const MatrixXd I = MatrixXd::Identity(2, 2);
   EXPECT_FALSE(stabilisable(I, matrix({{1}, {1}})));
   EXPECT_TRUE(stabilisable(I, I));
+  EXPECT_TRUE(stabilisable(I, matrix({{1, 0, 0}, {0, 0, 1}}))) << "an input that does nothing takes nothing away";
   EXPECT_TRUE(stabilisable(matrix({{1, 1}, {0, 1}}), matrix({{0}, {1}})));
   EXPECT_FALSE(stabilisable(matrix({{1, 1}, {0, 1}}), matrix({{1}, {0}})));
   EXPECT_TRUE(stabilisable(0.5 * I, MatrixXd::Zero(2, 1)));

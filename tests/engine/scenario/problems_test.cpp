@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{"/adversary/links/on/0", "/adversary/links/on", "[\"link:1-9\"]", "node \"9\""},
                     Bad{"/adversary/links/on/0", "/adversary/links/on", "[\"link:1-5\"]", "no link"},
                     Bad{"/adversary/links/on/0", "/adversary/links/on", "[\"sensor:9\"]", "names node"},
-                    Bad{"/adversary/links/on/0", "/adversary/links/on", "[\"actuator:1\"]", "not on actuators"},
+                    Bad{"/adversary/links/on/0", "/adversary/links/on", "[\"actuator:9\"]", "not there"},
                     Bad{"/adversary/links/from", "/adversary/links/from", "-1"},
                     Bad{"/adversary/links/to", "/adversary/links/to", "0", "not before from"},
                     Bad{"/adversary/links/enabled", "/adversary/links/enabled", "\"no\""},

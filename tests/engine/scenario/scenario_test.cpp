@@ -19,7 +19,7 @@ TEST(Presets, AreValidCompleteAndStable) {
   for (const auto& id : Scenario::preset_ids()) {
     const Scenario preset = Scenario::preset(id);
     EXPECT_EQ(preset.id(), id);
-    const bool named = id == "sparse" || id.starts_with("replay-");
+    const bool named = id == "sparse" || id.starts_with("replay-") || id.starts_with("observer-");
     EXPECT_EQ(preset.family(), named ? id.substr(0, id.find('-')) : "consensus");
     EXPECT_EQ(Scenario::from_json(preset.document()).document().dump(), preset.document().dump()) << id;
     EXPECT_EQ(Scenario::from_json(Json::parse(preset.document().dump())).document(), preset.document()) << id;
@@ -46,6 +46,13 @@ TEST(Presets, HaveTheContractsLanesInOrder) {
   EXPECT_EQ(keys(Scenario::preset("replay-nongaussian").document()["lanes"]), replay);
   replay.back() = "zonotope";
   EXPECT_EQ(keys(Scenario::preset("replay-ubb").document()["lanes"]), replay);
+  const auto observer = [](const char* id) { return keys(Scenario::preset(id).document()["lanes"]); };
+  EXPECT_EQ(observer("observer-pair"),
+            (std::vector<std::string>{"intermediate_fast", "intermediate_ref", "intermediate_printed"}));
+  EXPECT_EQ(observer("observer-areas"),
+            (std::vector<std::string>{"intermediate_fast", "intermediate_ref", "matched_uio"}));
+  EXPECT_EQ(observer("observer-single"),
+            (std::vector<std::string>{"intermediate_fast", "intermediate_ref", "classical_fast", "classical_ref"}));
 }
 
 TEST(Presets, CarryTheSpecificationsNumbers) {
@@ -246,8 +253,9 @@ TEST(Place, IsParsed) {
   EXPECT_EQ(parse_place("sensor:3")->channel, "");
   EXPECT_EQ(parse_place("sensor:3.range")->channel, "range");
   EXPECT_EQ(parse_place("actuator:1")->kind, PlaceKind::actuator);
+  EXPECT_EQ(parse_place("actuator:1.w2")->channel, "w2");
   for (const char* text : {"", "link", "link:", "link:1", "link:1-", "link:-1", "link:1-2-3", "link:**", "sensor:",
-                           "sensor:1.", "sensor:1.a.b", "actuator:", "actuator:1.x", "links:1-2", "link:1 -2"}) {
+                           "sensor:1.", "sensor:1.a.b", "actuator:", "actuator:1.x.y", "links:1-2", "link:1 -2"}) {
     EXPECT_FALSE(parse_place(text).has_value()) << text;
   }
 }

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{"/noise/Q", "-1"}, Bad{"/initial/estimates", "\"false\""},
                     Bad{"/initial/estimates", "{\"9\":[1]}"}, Bad{"/adversary/links/params/pdos", "1.5"},
                     Bad{"/adversary/links/params/tau", "1"}, Bad{"/adversary/links/type", "\"flood\""},
-                    Bad{"/adversary/links/on", "[\"actuator:1\"]"}, Bad{"/adversary/links/from", "-1"},
+                    Bad{"/adversary/links/on", "[\"engine:1\"]"}, Bad{"/adversary/links/from", "-1"},
                     Bad{"/lanes/consensus/params/tau", "-1"}, Bad{"/lanes/consensus/params/guard", "\"soft\""},
                     Bad{"/lanes/isolated/params/tau", "1"}, Bad{"/lanes/consensus/method", "\"magic\""},
                     Bad{"/lanes/consensus/path", "\"x\""}, Bad{"/lanes/B", "{}"}, Bad{"/log/policy", "\"x\""},

@@ -37,8 +37,11 @@ Eigen::VectorXd draw(const char* stream, std::int64_t tick, int size, double sca
 
 TEST(Plants, HaveTheirJacobians) {
   const Json own = {{"A", {{1, -0.1, 0}, {0.1, 0.9, 2}, {0, -3, 0.5}}}, {"B", {{0.7, 0}, {0.3, 1}, {0, -2}}}};
+  const Json one = {{"subsystems", {{"1", {{"A", {{-1, 0.5}, {0, -2}}}, {"C", {{1, 0}, {0, 1}}}}}}}};
   for (const auto& entry : Registry<PlantMake>::all()) {
-    const auto plant = plant_of(entry.id, entry.id == "linear" ? own : Json::object());
+    const auto plant = plant_of(entry.id, entry.id == "linear"           ? own
+                                          : entry.id == "interconnected" ? one
+                                                                         : Json::object());
     for (int trial = 0; trial < 50; ++trial) {
       const Eigen::VectorXd x = draw("state", trial, plant->states(), 50);
       const Eigen::VectorXd u = draw("input", trial, plant->inputs(), 3);

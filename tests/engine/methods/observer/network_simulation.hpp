@@ -82,10 +82,8 @@ class NetworkSimulation {
 
   Snapshot snapshot(int subsystem, const Eigen::Ref<const Eigen::VectorXd>& state,
                     const Eigen::Ref<const Eigen::VectorXd>& v) const {
-    NetworkSimulation own = *this;
-    own.hear(state, v);
-    std::vector<StackedObserver::Said> said;
-    own.observer_.say(state.tail(observer_.size()), own.y_, own.u_, said);
+    hear(state, v);
+    observer_.say(state.tail(observer_.size()), y_, u_, said_);
     const auto i = static_cast<std::size_t>(subsystem);
     const DrivePorts& ports = plant_.ports()[i];
     int output = 0;
@@ -94,15 +92,15 @@ class NetworkSimulation {
             .w = v.segment(ports.at_w(), ports.w),
             .d = v.segment(ports.at_d(), ports.d),
             .f = v.segment(ports.at_f(), ports.f),
-            .y = own.y_.segment(output, plant_.network().subsystems[i].p()),
-            .xhat = said[i].xhat,
-            .what = said[i].what,
-            .fhat = said[i].fhat,
-            .innovation = said[i].innovation};
+            .y = y_.segment(output, plant_.network().subsystems[i].p()),
+            .xhat = said_[i].xhat,
+            .what = said_[i].what,
+            .fhat = said_[i].fhat,
+            .innovation = said_[i].innovation};
   }
 
  private:
-  void hear(const Eigen::Ref<const Eigen::VectorXd>& state, const Eigen::Ref<const Eigen::VectorXd>& v) {
+  void hear(const Eigen::Ref<const Eigen::VectorXd>& state, const Eigen::Ref<const Eigen::VectorXd>& v) const {
     plant_.output(state.head(plant_.states()), v, y_);
     Eigen::Index entry = 0;
     for (const DrivePorts& ports : plant_.ports()) {
@@ -111,9 +109,11 @@ class NetworkSimulation {
   }
 
   InterconnectedPlant plant_;
-  StackedObserver observer_;
+  mutable StackedObserver observer_;  // what a moment says is worked out in its buffers
   Rk4 rk4_;
-  Eigen::VectorXd v_, y_, u_;
+  Eigen::VectorXd v_;
+  mutable Eigen::VectorXd y_, u_;
+  mutable std::vector<StackedObserver::Said> said_;
 };
 
 }  // namespace vigil::observer
