@@ -1,4 +1,5 @@
 // Gains over HTTP: asked for alone, and by a run that waits for them.
+#include "engine/linalg/sdp.hpp"
 #include "engine/world/interconnected/examples.hpp"
 #include "engine/world/interconnected/plant.hpp"
 #include "tests/server/synthesis/scripts.hpp"
