@@ -27,7 +27,9 @@ bool in_overview(const Signal& signal) {
     if (starts(signal.name, own + "truth.") || starts(signal.name, own + "input.")) return false;
     return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error") || ends(signal.name, ".alarm");
   }
-  if (starts(signal.name, "truth.") || starts(signal.name, "input.")) return true;
+  for (const char* head : {"truth.", "input.", "actuator.", "fault."}) {
+    if (starts(signal.name, head)) return true;
+  }
   return (starts(signal.name, "link.") || starts(signal.name, "sensor.")) && ends(signal.name, ".state");
 }
 
