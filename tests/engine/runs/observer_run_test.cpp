@@ -240,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"controller", {{"controller", {{"type", "lqg"}}}}, "/controller/type", "continuous"},
         Refused{
             "printed", {{"plant", {{"type", "single"}}}}, "/lanes/intermediate_printed/params/gains", "example 3.1"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& of) { return of.param.name; });
 
 }  // namespace
 }  // namespace vigil
