@@ -47,7 +47,7 @@ CampaignPlan make_plan(CampaignCommand& command) {
     RunOrder one;
     one.scenario = point.scenario;
     one.designs = order.designs;
-    command.gains.complete(one);
+    command.gains.require(one);
     point.designs = std::move(one.designs);
   }
   plan.runs = command.runs;

@@ -18,8 +18,11 @@ class GainFinder {
   /// The record of a task, whether it holds or not; of a problem that was solved before, that answer. Shows progress
   /// on standard error where that is a terminal.
   Json find(const DesignTask& task);
-  /// Finds all that an order's run lacks. Throws InputError where its scenario cannot be designed for.
+  /// Finds all that an order's run lacks, whether they hold or not. Throws InputError where its scenario cannot be
+  /// designed for.
   void complete(RunOrder& order);
+  /// The same for a run. Throws InputError with the reason at the first that it cannot have.
+  void require(RunOrder& order);
   /// What was solved: {"seconds":of all,"lanes":{"<lane>":seconds}}; null where nothing was. A lane that was solved
   /// more than once, in a sweep, has the sum.
   Json timing() const;

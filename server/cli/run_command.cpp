@@ -151,7 +151,7 @@ int carry_out(RunCommand& command) {
   RunOrder order = command.scenario.order();
   if (command.seed) order.seed = static_cast<std::uint64_t>(*command.seed);
   require_end(order);
-  command.gains.complete(order);
+  command.gains.require(order);
   Run run = make_run(order);
   Outputs outputs;
   if (!command.frames.empty()) outputs.file = std::make_unique<FrameFile>(command.frames, run.catalogue());

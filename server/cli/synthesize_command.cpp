@@ -42,7 +42,12 @@ std::string table(const std::vector<DesignItem>& items) {
   rows.front().insert(rows.front().end(), columns.begin(), columns.end());
   for (const DesignItem& item : items) {
     std::vector<std::string> row{item.lane, item.state == DesignItem::State::done ? "holds" : "none"};
-    for (const char* column : columns) row.push_back(cell(item.record, column));
+    // Figures of gains that are not there would be mistaken for some.
+    const bool gains = item.record.is_object() && item.record.contains("L") && !item.record.at("L").is_null();
+    for (const std::string_view column : columns) {
+      const bool always = column == "solver" || column == "verdict" || column == "seconds";
+      row.push_back(gains || always ? cell(item.record, column.data()) : "-");
+    }
     rows.push_back(std::move(row));
   }
   std::string text = aligned(rows);

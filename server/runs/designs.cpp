@@ -36,6 +36,17 @@ std::vector<DesignTask> open_tasks(RunOrder& order) {
   return open;
 }
 
+void require_gains(const DesignTask& task, const DesignItem& item) {
+  std::string why = item.reason;
+  try {
+    task.check(item.record);
+    return;
+  } catch (const InputError& error) {
+    if (why.empty()) why = error.problems().front().detail;
+  }
+  throw InputError("/lanes/" + task.lane, "no certified gains: " + why);
+}
+
 void check_designs(const Scenario& scenario, const Json& designs) {
   if (designs.empty()) return;
   for (const DesignTask& task : design_tasks(scenario)) {

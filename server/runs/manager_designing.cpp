@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/runs/designs.hpp"
 #include "server/runs/waiting_run.hpp"
 
 namespace vigil {
@@ -122,10 +123,8 @@ void RunManager::go_on(RunId id, const WaitingPointer& waiting) {
 Run RunManager::make_waiting(Waiting& waiting) {
   for (const DesignTask& task : waiting.tasks) {
     const auto item = designer_->find(task.key);
-    if (!item || !item->record.is_object()) {
-      throw InputError("/lanes/" + task.lane, "Lane " + task.lane + ": no certified gains: " +
-                                                  (item ? item->reason : std::string("the design was given up")));
-    }
+    if (!item) throw std::runtime_error("The design of lane " + task.lane + " was given up.");
+    require_gains(task, *item);
     waiting.order.designs[task.lane] = item->record;
   }
   return make_run(waiting.order);

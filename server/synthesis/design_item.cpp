@@ -12,6 +12,17 @@ std::string text_of(const Json& record, const char* key) {
 
 bool holds(const Json& record) { return record.is_object() && record.contains("holds") && record.at("holds") == true; }
 
+/// The certificate's reason, and what the solver said where it is the reason of that.
+std::string reason_of(const Json& record) {
+  const std::string verdict = text_of(record, "verdict"), detail = text_of(record, "detail");
+  std::string reason = text_of(record, "reason");
+  std::string because;
+  if (verdict == "infeasible") because = "the solver finds that the inequalities have no solution";
+  if ((verdict == "timed_out" || verdict == "failed") && detail != reason) because = detail;
+  if (!reason.empty() && !because.empty()) reason += ": ";
+  return reason + because;
+}
+
 }  // namespace
 
 std::string_view to_string(DesignItem::State state) {
@@ -43,11 +54,10 @@ DesignItem settle(DesignItem item, Json record) {
   if (record.is_object()) {
     const auto seconds = record.find("seconds");
     if (seconds != record.end() && seconds->is_number()) item.seconds = seconds->get<double>();
-    if (item.reason.empty()) item.reason = text_of(record, "reason");
-    if (item.reason.empty()) item.reason = text_of(record, "detail");
+    if (item.reason.empty()) item.reason = reason_of(record);
   }
   if (item.state == DesignItem::State::done) item.reason.clear();
-  if (item.state == DesignItem::State::refused && item.reason.empty()) item.reason = "No certified gains were found.";
+  if (item.state == DesignItem::State::refused && item.reason.empty()) item.reason = "no certified gains were found";
   item.record = std::move(record);
   return item;
 }

@@ -60,11 +60,11 @@ TEST(Synthesize, SaysWhatIsWrong) {
       vigil_command({"synthesize", "observer-single", "--set", "lanes.intermediate_ref.params.pmin=1e9"});
   EXPECT_EQ(bad.code, 2) << bad.output;
   EXPECT_NE(bad.error.find("pmax"), std::string::npos) << bad.error;
-  const Outcome late = vigil_command({"synthesize", ring_file(folder, 20), "--design-limit", "0.4"});
+  const Outcome late = vigil_command({"synthesize", ring_file(folder, 18), "--design-limit", "0.4"});
   EXPECT_EQ(late.code, 3) << late.error;
   EXPECT_NE(late.output.find("none"), std::string::npos) << late.output;
   EXPECT_NE(late.output.find("timed_out"), std::string::npos) << late.output;
-  const Outcome run = vigil_command({"run", ring_file(folder, 20), "--design-limit", "0.4"});
+  const Outcome run = vigil_command({"run", ring_file(folder, 18), "--design-limit", "0.4"});
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.error.find("no certified gains"), std::string::npos) << run.error;
   EXPECT_EQ(vigil_command({"synthesize", "nothing"}).code, 2);
@@ -137,7 +137,7 @@ pid_t child_process_of(pid_t parent) {
 TEST(Synthesize, AServerEndsInTheMiddleOfASolve) {
   for (const int signal : {SIGTERM, SIGKILL}) {
     const TemporaryFolder folder;
-    std::ifstream file(ring_file(folder, 24));
+    std::ifstream file(ring_file(folder, 18));
     const Json document = Json::parse(file);
     std::string id;
     pid_t child = 0;

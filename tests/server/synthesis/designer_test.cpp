@@ -110,7 +110,7 @@ TEST_F(DesignerTest, TheNextServerKnowsThemToo) {
   EXPECT_EQ(designer_->find("a")->lane, "lane-a");
   EXPECT_EQ(ask(task("a")), State::done);
   EXPECT_EQ(ask(task("b", "infeasible")), State::refused);
-  EXPECT_EQ(designer_->find("b")->reason, "no gains for b");
+  EXPECT_EQ(designer_->find("b")->reason, "no gains for b: the solver finds that the inequalities have no solution");
   EXPECT_EQ(designer_->known(task("a")), record);
   EXPECT_TRUE(designer_->known(task("b")).is_null());
   EXPECT_EQ(read_sdpa(*designer_->sdpa("a")), at_least_one());
