@@ -47,7 +47,8 @@ export function drawValueAxis(context: CanvasRenderingContext2D, g: Geometry, sc
   context.textAlign = 'right';
   context.textBaseline = 'middle';
   context.lineWidth = 1;
-  for (const value of scaleTicks(scale, plotHeight(g) / 32)) {
+  // A low plot has its labels closer together: one alone says no scale.
+  for (const value of scaleTicks(scale, plotHeight(g) / (plotHeight(g) < 96 ? 18 : 32))) {
     const y = Math.round(g.height - g.bottom - fraction(scale, value) * plotHeight(g)) + 0.5;
     context.strokeStyle = colour(value === 0 && scale.lo < 0 && !scale.log ? 'control' : 'grid');
     context.beginPath();

@@ -47,8 +47,8 @@ export function fit(values: { lo: number; hi: number } | null, log: boolean, mid
   if (middle) return { log: false, middle, lo: -beyond(-(values?.lo ?? 0), middle), hi: beyond(values?.hi ?? 0, middle) };
   if (!values) return log ? { log, lo: 0.1, hi: 10 } : { log, lo: 0, hi: 1 };
   if (log) {
-    const lo = Math.floor(Math.log10(values.lo) * 2 - 0.2) / 2;
     const hi = Math.ceil(Math.log10(values.hi) * 2 + 0.2) / 2;
+    const lo = Math.floor(Math.log10(values.lo) * 2 - 0.2) / 2;
     return { log, lo: 10 ** lo, hi: 10 ** Math.max(hi, lo + 1) };
   }
   const step = niceStep(Math.max(values.hi - values.lo, Math.abs(values.hi) * 1e-6, 1e-12) / 4);

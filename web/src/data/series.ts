@@ -141,11 +141,16 @@ export function closeDifference(a: Series, b: Series): Series {
   });
 }
 
-/** Absolute values; of reduced samples the greatest of each bucket. */
+/** Share of the greatest below which a size is drawn as that share: an error that crosses zero must not stretch a logarithmic scale. */
+const leastShare = 1e-5;
+
+/** Absolute values, for a logarithmic scale; of reduced samples the greatest of each bucket. */
 export function magnitude(series: Series): Series {
   return kept(series.hi, null, () => {
     const size = series.lo.map((v, i) => Math.max(Math.abs(v), Math.abs(series.hi[i]!)));
-    return { ...series, lo: size, hi: size };
+    const greatest = size.reduce((most, v) => (v > most ? v : most), 0);
+    const floored = size.map((v) => (v < leastShare * greatest ? leastShare * greatest : v));
+    return { ...series, lo: floored, hi: floored };
   });
 }
 

@@ -59,6 +59,14 @@ describe('where samples come from', () => {
     source.exact('b', 0, 9999);
     await vi.advanceTimersByTimeAsync(2000);
     expect(fetchSamples.mock.calls.at(-1)![0].points).toBeLessThan(10_000);
+    // Beside a signal that no stream carries its partner comes from the log, too.
+    const ring = new Ring([0], 100);
+    for (let k = 9990; k < 10_000; k++) ring.push({ k, t: k, n: 1, v: Float32Array.of(-1) });
+    source.rings = [ring];
+    source.logged('b', 9990, 9999);
+    await vi.advanceTimersByTimeAsync(2000);
+    expect([...source.logged('a', 9990, 9999).k]).toEqual([...source.logged('b', 9990, 9999).k]);
+    expect(source.logged('a', 9990, 9999).lo.at(-1)).toBe(99_990);
     source.close();
   });
 

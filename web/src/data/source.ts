@@ -109,6 +109,12 @@ export class Source {
     return whole.k.length ? whole : this.get(name, from, to);
   }
 
+  /** As the log has it, all signals at the same ticks: for what is made of a streamed signal and of one that is not. */
+  logged(name: string, from: number, to: number): Series {
+    if (!this.growing) return this.exact(name, from, to);
+    return this.byName.has(name) ? this.windows.get(name, Math.max(0, Math.floor(from)), Math.min(Math.ceil(to), this.head), this.head) : emptySeries;
+  }
+
   /** A signal about a single tick, or a short way up to it: every tick, however wide the window is. */
   near(name: string, from: number, to: number): Series {
     return this.read(this.states, name, from, to);

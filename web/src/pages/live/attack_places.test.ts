@@ -14,6 +14,15 @@ describe('places of an attack by hand', () => {
     expect(placesOf(null, 'sensor')).toEqual([]);
   });
 
+  it('are actuators, too, where a subsystem has one: its own attacks are told first, a push by hand is a bias', () => {
+    const areas = { links: [], nodes: [{ id: '1', position: null, state: 'sensor.1.state', actuator: true }, { id: '2', position: null, state: null, actuator: false }] };
+    expect(placesOf(areas, 'actuator')).toEqual(['1']);
+    expect(usualKind(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), areas)).toBe('actuator');
+    expect(usualKind(run({}), areas)).toBe('sensor');
+    expect(typesAt(['bias', 'dos', 'waveform'], 'actuator')).toEqual(['bias', 'waveform']);
+    expect(usualType(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), ['bias', 'waveform'], 'actuator')).toBe('bias');
+  });
+
   it('take the attacks that act there, and those that nobody knows', () => {
     expect(typesAt(types, 'link')).toEqual(['bias', 'dos', 'dos_fdi', 'of_the_future']);
     expect(typesAt(types, 'sensor')).toEqual(['bias', 'radar_fdi', 'replay', 'of_the_future']);

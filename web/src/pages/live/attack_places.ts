@@ -2,11 +2,17 @@
 import type { RunDetail } from '../../api/types';
 import type { RunModel } from './model';
 
-export type PlaceKind = 'link' | 'sensor';
+export const placeKinds = ['link', 'sensor', 'actuator'] as const;
+export type PlaceKind = (typeof placeKinds)[number];
+
+type Places = Pick<RunModel, 'links' | 'nodes'>;
 
 /** Attacks that act on one kind of place only. The server has the last word: it refuses with the reason. */
-const only: Readonly<Record<string, PlaceKind>> = { dos: 'link', dos_fdi: 'link', radar_fdi: 'sensor', replay: 'sensor' };
-const usual: Readonly<Record<PlaceKind, string>> = { link: 'dos_fdi', sensor: 'replay' };
+const only: Readonly<Record<string, PlaceKind>> = { dos: 'link', dos_fdi: 'link', radar_fdi: 'sensor', replay: 'sensor', waveform: 'actuator' };
+const usual: Readonly<Record<PlaceKind, string>> = { link: 'dos_fdi', sensor: 'replay', actuator: 'bias' };
+
+/** The words on the button. */
+export const titles = { link: 'attack', sensor: 'attack_sensor', actuator: 'attack_actuator' } as const satisfies Record<PlaceKind, string>;
 
 /** Parameters that say when an attack acts: by hand it acts from now on, for as long as the dialog says. */
 const schedules: Readonly<Record<string, readonly string[]>> = { replay: ['case', 'start', 'end'] };
@@ -19,9 +25,9 @@ export function typesAt(types: readonly string[], kind: PlaceKind): string[] {
   return types.filter((type) => (only[type] ?? kind) === kind);
 }
 
-export function placesOf(model: Pick<RunModel, 'links' | 'nodes'> | null, kind: PlaceKind): string[] {
+export function placesOf(model: Places | null, kind: PlaceKind): string[] {
   if (kind === 'link') return model?.links.map((link) => link.id) ?? [];
-  return model?.nodes.flatMap((node) => (node.state === null ? [] : [node.id])) ?? [];
+  return model?.nodes.flatMap((node) => ((kind === 'sensor' ? node.state !== null : node.actuator) ? [node.id] : [])) ?? [];
 }
 
 type Attacks = Record<string, { type?: unknown; on?: unknown } | null>;
@@ -30,18 +36,19 @@ function actsOn(attack: Attacks[string], kind: PlaceKind): boolean {
   return Array.isArray(attack?.on) && attack.on.some((place) => String(place).startsWith(`${kind}:`));
 }
 
-/** What the scenario's own adversary acts on; where it has none, links before sensors. */
-export function usualKind(run: Pick<RunDetail, 'document'> | null, model: Pick<RunModel, 'links' | 'nodes'> | null): PlaceKind {
+/** What the scenario's own adversary acts on; where it has none, links before sensors before actuators. */
+export function usualKind(run: Pick<RunDetail, 'document'> | null, model: Places | null): PlaceKind {
   const attacks = Object.values((run?.document?.adversary ?? {}) as Attacks);
-  const own = (['link', 'sensor'] as const).find((kind) => attacks.some((attack) => actsOn(attack, kind)));
+  const own = placeKinds.find((kind) => attacks.some((attack) => actsOn(attack, kind)));
   if (own && placesOf(model, own).length) return own;
-  return placesOf(model, 'link').length || !placesOf(model, 'sensor').length ? 'link' : 'sensor';
+  return placeKinds.find((kind) => placesOf(model, kind).length) ?? 'link';
 }
 
 /** The attack that the scenario makes on such places itself, else the usual one. */
 export function usualType(run: Pick<RunDetail, 'document'> | null, types: readonly string[], kind: PlaceKind): string {
   const known = typesAt(types, kind);
   const own = Object.values((run?.document?.adversary ?? {}) as Attacks).find((attack) => actsOn(attack, kind) && known.includes(String(attack?.type)));
-  const wanted = kind === 'link' ? usual.link : String(own?.type ?? usual[kind]);
+  // Pieces of time are a scenario's: by hand a push that lasts is meant.
+  const wanted = kind === 'sensor' ? String(own?.type ?? usual.sensor) : usual[kind];
   return known.includes(wanted) ? wanted : (known[0] ?? '');
 }

@@ -36,5 +36,6 @@ export function readLine(line: LineSpec, read: (signal: string) => Series): Seri
 
 /** The values of a line in a window, from wherever they are. */
 export function lineOf(line: LineSpec, source: Source, from: number, to: number): Series {
-  return readLine(line, (name) => (line.close ? source.exact(name, from, to) : source.get(name, from, to)));
+  const read = (name: string): Series => (!line.close ? source.get(name, from, to) : line.unstreamed ? source.logged(name, from, to) : source.exact(name, from, to));
+  return readLine(line, read);
 }

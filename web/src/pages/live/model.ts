@@ -32,8 +32,8 @@ export interface LinkModel {
 export interface RunModel {
   lanes: LaneModel[];
   links: LinkModel[];
-  /** `state`: the signal that tells which attack acts on the node's sensor. */
-  nodes: { id: string; position: [number, number] | null; state: string | null }[];
+  /** `state`: the signal that tells which attack acts on the node's sensor. `actuator`: whether it has one that can be attacked. */
+  nodes: { id: string; position: [number, number] | null; state: string | null; actuator?: boolean }[];
   plane: { x: string; y: string; unit: string } | null;
   errorUnit: string;
   /** The lane that a scenario leads with. */
@@ -52,7 +52,7 @@ export function makeModel(run: RunDetail, signals: Signal[]): RunModel {
   return {
     lanes,
     links: (run.world?.links ?? []).map(({ id, from, to }) => ({ id, from, to, state: names.has(`link.${id}.state`) ? `link.${id}.state` : null })),
-    nodes: (run.world?.nodes ?? []).map(({ id, position }) => ({ id, position: position && position.length >= 2 ? [position[0]!, position[1]!] : null, state: names.has(`sensor.${id}.state`) ? `sensor.${id}.state` : null })),
+    nodes: (run.world?.nodes ?? []).map(({ id, position }) => ({ id, position: position && position.length >= 2 ? [position[0]!, position[1]!] : null, state: names.has(`sensor.${id}.state`) ? `sensor.${id}.state` : null, ...(signals.some(({ name }) => name.startsWith(`actuator.${id}.`)) ? { actuator: true } : {}) })),
     plane,
     errorUnit: run.view?.error_unit ?? anyError?.unit ?? '',
     lead: run.view?.lane ?? null,

@@ -15,6 +15,7 @@ import ErrorPanel from './ErrorPanel.svelte';
 import EventsPanel from './EventsPanel.svelte';
 import FeasiblePanel from './FeasiblePanel.svelte';
 import type { RunModel } from './model';
+import { recordOf } from './observer/record';
 import { hasSubsystems } from './observer/subsystems';
 import PlanePanel from './PlanePanel.svelte';
 import FusionPanel from './fusion/FusionPanel.svelte';
@@ -48,14 +49,15 @@ export interface PanelEntry {
 const consensus = (run: RunDetail): boolean => run.family === 'consensus';
 const detects = (run: RunDetail, model: RunModel): boolean => aboutDetectors(run) && detectorsOf(model, null).length > 0;
 const subsystems = (_: RunDetail, model: RunModel): boolean => hasSubsystems(model);
+const designed = (run: RunDetail, model: RunModel): boolean => hasSubsystems(model) || Object.keys(run.design ?? {}).some((lane) => recordOf(run, lane) !== null);
 const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
 
 export const panels: readonly PanelEntry[] = [
   { name: 'state-errors', load: () => import('./observer/StateErrorsPanel.svelte'), wide: [5, 1], middle: [12, 1], narrow: 420, applies: subsystems },
   { name: 'attack-fault', load: () => import('./observer/AttackFaultPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 560, applies: subsystems },
-  { name: 'methods', load: () => import('./observer/ComparisonPanel.svelte'), wide: [8, 1], middle: [12, 1], narrow: 620, applies: subsystems },
-  { name: 'subsystems', load: () => import('./observer/NetworkPanel.svelte'), wide: [4, 1], middle: [6, 1], narrow: 300, applies: subsystems },
-  { name: 'design', load: () => import('./observer/DesignPanel.svelte'), wide: [8, 1], middle: [6, 1], narrow: 460, applies: subsystems },
+  { name: 'methods', load: () => import('./observer/ComparisonPanel.svelte'), wide: [7, 2], middle: [12, 1], narrow: 620, applies: subsystems },
+  { name: 'subsystems', load: () => import('./observer/NetworkPanel.svelte'), wide: [5, 1], middle: [6, 1], narrow: 300, applies: subsystems },
+  { name: 'design', load: () => import('./observer/DesignPanel.svelte'), wide: [5, 1], middle: [6, 1], narrow: 460, applies: designed },
   { name: 'detector', component: DetectorPanel, wide: [7, 2], middle: [12, 1], narrow: 480, applies: detects },
   { name: 'whatif', component: WhatIfPanel, wide: [5, 1], middle: [6, 1], narrow: 280, applies: detects },
   { name: 'profile', component: ProfilePanel, wide: [5, 1], middle: [6, 1], narrow: 330, applies: (run) => aboutDetectors(run) },
@@ -93,7 +95,7 @@ export interface Rows {
 const usualRows: Rows = { wide: [29, 47, 29], middle: [320, 320, 260] };
 const familyRows: Record<string, Rows> = {
   sparse: { wide: [1, 1, 1], middle: [400, 460, 300] },
-  observer: { wide: [10, 10, 9], middle: [340, 340, 380, 320] },
+  observer: { wide: [10, 9, 11], middle: [340, 340, 380, 320] },
 };
 
 export function rowsOf(run: RunDetail): Rows {

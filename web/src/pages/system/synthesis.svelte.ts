@@ -11,8 +11,9 @@ export class Synthesis {
   asked = $state.raw<JsonObject | null>(null);
   private abort: AbortController | null = null;
 
+  /** Pointers into the description, which was sent as the member "scenario". */
   get refusals(): readonly { pointer: string; detail: string }[] {
-    return this.problem instanceof ApiProblem ? this.problem.errors : [];
+    return this.problem instanceof ApiProblem ? this.problem.errors.map(({ pointer, detail }) => ({ pointer: pointer.replace(/^\/scenario(?=\/)/, ''), detail })) : [];
   }
   get done(): boolean {
     return this.asked !== null && !this.busy && this.problem === null && this.items.every(settled);

@@ -99,7 +99,7 @@ describe('the page', () => {
   });
 
   it('puts a refusal to the matrix it names, until something is changed', async () => {
-    reply = () => answer({ title: 'Invalid', status: 422, detail: '', errors: [{ pointer: '/plant/params/subsystems/1/D', detail: 'D of subsystem 1 lacks column rank.' }] }, 422);
+    reply = () => answer({ title: 'Invalid', status: 422, detail: '', errors: [{ pointer: '/scenario/plant/params/subsystems/1/D', detail: 'D of subsystem 1 lacks column rank.' }] }, 422);
     render(SystemPage, { props: { params: {} } });
     await synthesise();
     const place = await waitFor(() => {

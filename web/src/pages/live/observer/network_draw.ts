@@ -20,7 +20,7 @@ interface Place {
   y: number;
 }
 
-const half = { width: 39, height: 18 };
+const half = { width: 39, height: 17 };
 
 /** The centres of the boxes: alone in the middle, two side by side, more on an ellipse from the left over the top. */
 export function places(count: number, width: number, height: number): Place[] {
@@ -28,10 +28,12 @@ export function places(count: number, width: number, height: number): Place[] {
   if (count === 1) return [{ x: cx, y: cy }];
   const rx = Math.max(0, cx - half.width - 8);
   const ry = Math.max(0, cy - half.height - 12);
-  const start = count === 4 ? (-3 * Math.PI) / 4 : Math.PI;
+  const [reach, rise] = [Math.min(rx, count === 2 ? 120 : count === 4 ? 200 : 300), ry];
+  // Four stand at the corners, so that no arrow is short.
+  if (count === 4) return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([dx, dy]) => ({ x: cx + dx! * reach, y: cy + dy! * rise }));
   return Array.from({ length: count }, (_, i) => {
-    const angle = start + (2 * Math.PI * i) / count;
-    return { x: cx + Math.min(rx, count === 2 ? 120 : 300) * Math.cos(angle), y: cy + (count === 2 ? 0 : ry * Math.sin(angle)) };
+    const angle = Math.PI + (2 * Math.PI * i) / count;
+    return { x: cx + reach * Math.cos(angle), y: cy + (count === 2 ? 0 : rise * Math.sin(angle)) };
   });
 }
 

@@ -90,6 +90,8 @@ describe('errors of two signals that move together', () => {
 
   it('have a size', () => {
     expect([...magnitude(series([-3, 1], [2, 4])).hi]).toEqual([3, 4]);
+    expect(magnitude(series([-10, 0])).hi[1]).toBeCloseTo(1e-4, 9);
+    expect(magnitude(series([1, NaN])).hi[1]).toBeNaN();
   });
 });
 

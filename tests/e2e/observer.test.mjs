@@ -1,0 +1,222 @@
+// The observer family's panels: errors, attacks and faults, methods with their words, the network, the design; runs that wait for gains.
+import assert from 'node:assert/strict';
+import { describe, test } from 'node:test';
+import { checkAxe } from './support/axe.mjs';
+import { openPage } from './support/browser.mjs';
+import { button, csvOf, openRange, query } from './support/live.mjs';
+import { call, finishedRun, runUntil, until } from './support/server.mjs';
+import { withSite } from './support/site.mjs';
+import { everyTick, panel } from './support/sparse.mjs';
+
+const word = (lane) => lane.replaceAll('_', ' ');
+const metricOf = (run, lane, node, name) => run.metrics.find((metric) => metric.lane === lane && metric.node === node && metric.name === name)?.value ?? null;
+/** As the page writes it: three significant digits. */
+const near = (text, value) => assert.ok(Math.abs(Number(text) - value) <= 0.006 * Math.abs(value) + 1e-12, `${text} for ${value}`);
+const rowsOf = (place) => place.locator('tbody tr').evaluateAll((list) => list.map((row) => [...row.cells].map((cell) => cell.textContent.trim())));
+
+/** The panel's data as the page's own table, filled. */
+async function tableOf(page, title) {
+  const place = panel(page, title);
+  await place.getByRole('button', { name: `${title}: Data as a table` }).click();
+  const rows = await until(`the table of ${title} is filled`, async () => {
+    const all = await rowsOf(place);
+    return all.length === 100 && all.every((cells) => cells.every((cell) => cell !== '')) && all;
+  });
+  await place.getByRole('button', { name: `${title}: Data as a table` }).click();
+  return rows;
+}
+
+describe('the observer family', () => {
+  let server;
+  let browser;
+  let pair;
+  const areas = {};
+  const short = (steps, more = {}) => ({ time: { steps }, metrics: { window: { from: 1 } }, ...more });
+  withSite(async (site) => {
+    ({ server, browser } = site);
+    pair = await finishedRun(server, { scenario: 'observer-pair', patch: { time: { steps: 3000 }, metrics: { window: { from: 2001 } } } });
+    areas.fails = await finishedRun(server, { scenario: 'observer-areas', patch: short(3000, { plant: { params: { case: 2 } }, adversary: { area2: { enabled: true } } }) });
+    areas.broken = await finishedRun(server, { scenario: 'observer-areas', patch: short(3000, { plant: { params: { case: 2 } } }) });
+    areas.matched = await finishedRun(server, { scenario: 'observer-areas', patch: short(3000) });
+  });
+
+  async function open(run, more = '', options = {}) {
+    const view = await openRange(browser, server, run.id, run.progress.k, more, options);
+    await view.page.locator('.state-errors canvas').first().waitFor();
+    return view;
+  }
+
+  test('state errors are estimate minus truth, as the log has them', async () => {
+    const view = await open(pair, '&lane=intermediate_ref');
+    const own = ['x1_1', 'x1_2', 'x1_3', 'x1_4', 'x2_1', 'x2_2', 'x2_3'];
+    const names = own.flatMap((name) => [`lane.intermediate_ref.${name[1]}.estimate.${name}`, `truth.${name}`]);
+    const { of } = await everyTick(server, pair.id, names, 3000);
+    for (const [k, ...cells] of await tableOf(view.page, 'State errors')) {
+      own.forEach((name, i) => {
+        const error = of[names[2 * i]][k] - of[names[2 * i + 1]][k];
+        assert.ok(Math.abs(Number(cells[i]) - error) <= 1e-3 * Math.abs(error) + 2e-6, `k ${k}, ${name}: ${cells[i]} for ${error}`);
+      });
+    }
+    assert.equal(await panel(view.page, 'State errors').getByRole('application').count(), 2);
+    await panel(view.page, 'State errors').getByRole('button', { name: '± log' }).click();
+    await until('the address has the scale', () => query(view.page, 'scale') === 'symlog');
+    await view.close();
+  });
+
+  test('attack and fault of a chosen subsystem: the truth, every lane, and the CSV of both', async () => {
+    const view = await open(pair, '&lane=intermediate_fast');
+    const { page } = view;
+    const place = panel(page, 'Attack and fault');
+    await place.getByRole('combobox', { name: 'subsystem' }).selectOption('2');
+    await until('the address has the subsystem', () => query(page, 'node') === '2');
+    assert.equal(await place.getByRole('application').count(), 4);
+    const lanes = pair.world.lanes.map(({ id }) => id);
+    const names = [...lanes.map((lane) => `lane.${lane}.2.attack.w1`), 'actuator.2.w1.injected'];
+    const { of } = await everyTick(server, pair.id, names, 3000);
+    for (const [k, ...cells] of await tableOf(page, 'Attack and fault')) names.forEach((name, i) => near(cells[i], of[name][k]));
+    await place.getByRole('button', { name: word(lanes[1]), exact: true }).click();
+    await until('a lane is hidden, in the address too', () => query(page, 'hide') === lanes[1]);
+    const [download] = await Promise.all([page.waitForEvent('download'), place.getByRole('button', { name: /as CSV/ }).click()]);
+    const [head, ...rows] = await csvOf(download);
+    assert.deepEqual(head.slice(2).toSorted(), [lanes[0], lanes[2]].flatMap((lane) => [`lane.${lane}.2.attack.w1`, `lane.${lane}.2.fault.f1`]).concat('actuator.2.w1.injected', 'fault.2.f1').toSorted());
+    assert.equal(rows.length, 3001);
+    await view.close();
+  });
+
+  test('the methods’ figures are the run’s metrics', async () => {
+    const view = await open(pair);
+    const methods = panel(view.page, 'Methods compared');
+    for (const [button, name, offset] of [['attack', 'rms_attack_error', 1], ['fault', 'rms_fault_error', 1], ['state', 'rms_state_error', 0]]) {
+      await methods.getByRole('button', { name: button, exact: true }).click();
+      const rows = await until(`the table has ${name}`, async () => {
+        const all = await rowsOf(methods);
+        return all.length === 3 + offset && all;
+      });
+      pair.world.lanes.forEach(({ id }, i) => {
+        const [lane, ...cells] = rows[i + offset];
+        assert.equal(lane, word(id));
+        ['1', '2'].forEach((node, j) => near(cells[j], metricOf(pair, id, node, name)));
+      });
+    }
+    await view.close();
+  });
+
+  test('the attack itself is as large as the log has it', async () => {
+    const view = await open(areas.fails);
+    const { of } = await everyTick(server, areas.fails.id, ['actuator.2.w1.injected'], 3000);
+    const values = of['actuator.2.w1.injected'].slice(1);
+    const rms = Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
+    const row = panel(view.page, 'Methods compared').getByRole('row', { name: /^the attack itself/ });
+    await until('its size is known', async () => Math.abs(Number(await row.locator('td').nth(1).innerText()) - rms) < 0.006 * rms);
+    await view.close();
+  });
+
+  test('of the printed gains the page says what this run shows: certified, and they miss the attacks', async () => {
+    const view = await open(pair);
+    const said = panel(view.page, 'Methods compared');
+    const record = pair.design.intermediate_printed;
+    assert.ok(record.holds && record.max_real_pole < 0);
+    await said.getByText('The gains printed in the paper (intermediate printed) are stable').waitFor();
+    const text = await said.getByText('are stable, their slowest pole').innerText();
+    near(/pole at (\S+),/.exec(text)[1], record.max_real_pole);
+    await said.getByText('They do not estimate the attacks all the same.').waitFor();
+    const numbers = await said.getByText('They do not estimate the attacks all the same.').innerText();
+    near(/subsystem 1: (\S+) of an attack/.exec(numbers)[1], metricOf(pair, 'intermediate_printed', '1', 'rms_attack_error'));
+    await said.getByText('the certificate bounds the error of the state').waitFor();
+    await view.close();
+  });
+
+  for (const [name, condition, sentence] of [
+    ['matched', 'holds in every subsystem', 'as in figure 5'],
+    ['broken', 'holds in subsystems 1, 3 and is violated in 2, 4', 'Figure 7 shows such an observer failing. This run does not'],
+    ['fails', 'holds in subsystems 1, 3 and is violated in 2, 4', 'Here matched uio fails, as figure 7 says: subsystem 2 is attacked'],
+  ]) {
+    test(`of figure 7 the page says what this run shows: ${name}`, async () => {
+      const run = areas[name];
+      const view = await open(run);
+      const { page } = view;
+      const said = panel(page, 'Methods compared');
+      await said.getByText(condition).waitFor();
+      await said.getByText(sentence).waitFor();
+      near(/subsystem 1: (\S+) of an attack/.exec(await said.getByText(sentence).innerText())[1], metricOf(run, 'matched_uio', '1', 'rms_attack_error'));
+      const label = await panel(page, 'Subsystems').getByRole('img').getAttribute('aria-label');
+      assert.equal(label.split('matching condition holds').length - 1, run.design.matched_uio.matched.filter(Boolean).length);
+      assert.equal((await said.getByRole('link', { name: 'case 2 with area 2 attacked' }).getAttribute('href')).startsWith('/scenarios/observer-areas?patch='), true);
+      await view.close();
+    });
+  }
+
+  test('of figure 8 the page compares lanes of the same bounds', async () => {
+    const single = await finishedRun(server, { scenario: 'observer-single', patch: { time: { steps: 4000 } } });
+    const view = await open(single);
+    const said = panel(view.page, 'Methods compared');
+    for (const preset of ['fast', 'ref']) {
+      const [mine, theirs] = [`intermediate_${preset}`, `classical_${preset}`].map((lane) => metricOf(single, lane, single.world.nodes[0].id, 'rms_attack_error'));
+      const sentence = said.getByText(`the RMS error of intermediate ${preset} is`);
+      await sentence.waitFor();
+      assert.match(await sentence.innerText(), new RegExp(`${Math.round(100 * Math.abs(1 - mine / theirs))} % ${mine < theirs ? 'lower' : 'higher'}`));
+    }
+    await view.close();
+  });
+
+  test('the network says who is attacked at the cursor', async () => {
+    const view = await open(areas.fails, '&k=1000');
+    const picture = panel(view.page, 'Subsystems').getByRole('img');
+    // w1 begins after 2 s, that of area 2 at once.
+    await until('area 2 alone is attacked', async () => /subsystem 2[^.]*attacked at the cursor/.test(await picture.getAttribute('aria-label')) && !/subsystem 1 [^.]*attacked at the cursor/.test(await picture.getAttribute('aria-label')));
+    await panel(view.page, 'Subsystems').getByRole('button', { name: '3', exact: true }).click();
+    await until('the address has the subsystem', () => query(view.page, 'node') === '3');
+    await view.close();
+  });
+
+  test('the design card has the record, its poles as a table, and the problem to take along', async () => {
+    const view = await open(pair, '&lane=intermediate_fast');
+    const { page } = view;
+    const card = panel(page, 'Design');
+    const record = pair.design.intermediate_fast;
+    await card.getByText('The certificate holds').waitFor();
+    near(await card.locator('dl div', { hasText: 'objective' }).locator('dd').innerText(), record.objective);
+    near(await card.locator('dl div', { hasText: 'slowest pole' }).locator('dd').innerText(), record.max_real_pole);
+    await card.getByText(`Margins of ${record.margins.length} blocks`).click();
+    assert.equal((await rowsOf(card)).length, record.margins.length);
+    const address = await card.getByRole('link', { name: 'The problem in SDPA format' }).getAttribute('href');
+    const text = await (await fetch(server.url + address)).text();
+    assert.match(text, /^[\s\S]*\d+/);
+    assert.ok(text.split('\n').length > 100);
+    await card.getByRole('button', { name: 'Design: Data as a table' }).click();
+    assert.equal((await rowsOf(card)).length, record.poles.length);
+    await view.close();
+  });
+
+  test('a run that waits for its gains says so, lane by lane, and comes alive by itself', async () => {
+    const { id } = await call(server, 'POST', '/runs', { scenario: 'observer-pair', pace: 1000, patch: { time: { steps: 4000 }, lanes: { intermediate_fast: { params: { cnu: 2e-9 } }, intermediate_ref: { params: { cnu: 2e-5 } } } } });
+    const view = await openPage(browser, server);
+    await view.goto(`/live/${id}`);
+    await view.page.locator('.state-errors canvas').first().waitFor();
+    assert.equal((await runUntil(server, id, 'finished')).progress.k, 4000);
+    await view.close();
+  });
+
+  test('an attack on an actuator by hand is offered where a subsystem has one', async () => {
+    const { id } = await call(server, 'POST', '/runs', { scenario: 'observer-pair', pace: 1000, patch: { time: { steps: null } } });
+    await runUntil(server, id, 'running');
+    const view = await openPage(browser, server);
+    await view.goto(`/live/${id}`);
+    await button(view.page, 'Attack an actuator').click();
+    const dialog = view.page.getByRole('dialog', { name: 'Attack an actuator' });
+    await until('a bias is offered', async () => (await dialog.getByRole('combobox', { name: 'Attack' }).inputValue()) === 'bias');
+    await view.page.keyboard.press('Escape');
+    await view.close();
+    await call(server, 'DELETE', `/runs/${id}`);
+  });
+
+  for (const [theme, lang, width] of [['light', 'en', 1440], ['dark', 'zh', 1024], ['light', 'zh', 390]]) {
+    test(`nothing for axe to say: ${theme}, ${lang}, ${width} px`, async () => {
+      const view = await open(areas.fails, '&lane=matched_uio&k=1000&node=2', { theme, lang, width });
+      await view.page.locator('.methods td').first().waitFor();
+      await view.page.locator('.design dl').first().waitFor();
+      await checkAxe(view.page, `the observer panels, ${theme} ${lang} ${width}`);
+      await view.close();
+    });
+  }
+});
