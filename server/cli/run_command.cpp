@@ -150,9 +150,9 @@ double step_through(Run& run, Outputs& outputs, const std::optional<std::int64_t
 int carry_out(RunCommand& command) {
   RunOrder order = command.scenario.order();
   if (command.seed) order.seed = static_cast<std::uint64_t>(*command.seed);
-  require_end(order);
   command.gains.require(order);
   Run run = make_run(order);
+  require_end(order);
   Outputs outputs;
   if (!command.frames.empty()) outputs.file = std::make_unique<FrameFile>(command.frames, run.catalogue());
   if (!command.db.empty()) outputs.log = std::make_unique<Logged>(command.db, order, run, command.scenario.trace);

@@ -188,6 +188,7 @@ TEST_F(DesignsTest, WhatCannotBeDesignedForFailsWithItsSentence) {
   observer::Network network;
   for (const double pole : {-1.0, 0.5}) {
     observer::Subsystem& s = network.subsystems.emplace_back();
+    s.name = std::to_string(network.subsystems.size());
     s.A = Eigen::MatrixXd::Constant(1, 1, pole);
     s.C = Eigen::MatrixXd::Ones(1, 1);
     observer::complete(s);

@@ -150,7 +150,10 @@ class ApiTest : public ::testing::Test {
     client_ = std::make_unique<Client>(server_->port());
   }
   void TearDown() override { server_.reset(); }
-  ApiTest() { options_.demo = false; }
+  ApiTest() {
+    options_.demo = false;
+    options_.runs.design.executable = VIGIL_EXECUTABLE;  // this one knows no solve-sdp
+  }
 
   TemporaryFolder folder_;
   ServerOptions options_;

@@ -59,6 +59,7 @@ class EveryRoute : public SystemTest {
     bundle_ = client_->get("/api/v1/runs/" + run_ + "/bundle").body;
     document_ = client_->get("/api/v1/scenarios/consensus").body;
     client_->send("PUT", "/api/v1/scenarios/mine", document_);
+    design_ = client_->post("/api/v1/designs", {{"scenario", "observer-single"}}).json.at("items").at(0).at("key");
   }
 
   std::string fill(std::string path, const std::string& method) const {
@@ -70,6 +71,7 @@ class EveryRoute : public SystemTest {
     };
     put("{id}", scenario ? (method == "get" ? "consensus" : "mine") : trace ? trace_ : run_);
     put("{aid}", "a1");
+    put("{key}", design_);
     return path;
   }
 
@@ -78,7 +80,7 @@ class EveryRoute : public SystemTest {
     if (path.ends_with("/import")) return bundle_;
     if (path.ends_with("/fork")) return R"({"k":2})";
     if (path.ends_with("/attacks")) return R"({"type":"dos","on":["link:1-2"]})";
-    if (path.ends_with("/runs")) return R"({"scenario":"consensus"})";
+    if (path.ends_with("/runs") || path.ends_with("/designs")) return R"({"scenario":"consensus"})";
     if (method == "put") return document_;
     if (method == "patch") return R"({"note":"x"})";
     if (path.ends_with("/session")) return R"({"token":"none"})";
@@ -111,7 +113,7 @@ class EveryRoute : public SystemTest {
     return status;
   }
 
-  std::string run_, trace_, bundle_, document_;
+  std::string run_, trace_, bundle_, document_, design_;
 };
 
 TEST_F(EveryRoute, OfTheDescriptionAnswers) {

@@ -86,7 +86,7 @@ TEST(CommandLine, BadInputIsOneSentenceAndCodeTwo) {
   std::ofstream(folder.file("other.db"))
       << "this is no database, but it is long enough to be looked at as one by a careless reader";
   expect_bad({}, "subcommand");
-  expect_bad({"synthesize", "consensus"}, "no command");
+  expect_bad({"nosuch", "consensus"}, "no command");
   expect_bad({"run"}, "SCENARIO");
   expect_bad({"run", "nosuch"}, "nosuch");
   expect_bad({"run", folder.file("broken.json")}, "not JSON");
