@@ -71,7 +71,8 @@ TEST(ObserverRun, OnATraceItHearsReadingsInBetween) {
   const Scenario scenario = printed(steps(2000));
   const Told told(scenario, options(scenario));
   RunOptions traced = options(scenario);
-  traced.trace = std::make_shared<const Trace>(Trace::from_csv(test::csv_of(told.run.catalogue(), told.capture.frames)));
+  traced.trace =
+      std::make_shared<const Trace>(Trace::from_csv(test::csv_of(told.run.catalogue(), told.capture.frames)));
   const Told again(scenario, traced);
   double worst = 0;
   for (std::int64_t k = 0; k <= 2000; k += 10) {

@@ -35,8 +35,7 @@ long of_lane(const char* preset, const std::string& lane, const Json& patch = Js
 TEST(ReplayAllocations, AreNoneInATick) {
   for (const char* preset : test::kReplayPresets) {
     const Json lanes = Scenario::preset(preset).document()["lanes"];
-    for (const auto& [lane, ignored] : lanes.items())
-      EXPECT_EQ(of_lane(preset, lane), 0) << preset << " " << lane;
+    for (const auto& [lane, ignored] : lanes.items()) EXPECT_EQ(of_lane(preset, lane), 0) << preset << " " << lane;
   }
 }
 

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "engine/world/interconnected/examples.hpp"
 #include "engine/methods/observer/synthesis.hpp"
+#include "engine/world/interconnected/examples.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 
 namespace vigil {
