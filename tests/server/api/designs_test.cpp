@@ -191,6 +191,7 @@ TEST_F(DesignsTest, WhatCannotBeDesignedForFailsWithItsSentence) {
     s.name = std::to_string(network.subsystems.size());
     s.A = Eigen::MatrixXd::Constant(1, 1, pole);
     s.C = Eigen::MatrixXd::Ones(1, 1);
+    s.D = Eigen::MatrixXd::Ones(1, 1);
     observer::complete(s);
   }
   for (const int to : {0, 1}) network.couplings.push_back({to, 1 - to, Eigen::MatrixXd::Constant(1, 1, 1e5)});
