@@ -93,7 +93,7 @@ describe('a system of one’s own', () => {
     assert.equal(await button(page, 'Run it').isDisabled(), true);
     assert.equal((await call(server, 'GET', '/runs')).items.filter(({ state }) => state !== 'finished').length, 0);
     // An output of the attacked state makes it whole.
-    await paste(page, cell(page, 'C', 1, 1, 1), '1 0');
+    await paste(page, cell(page, 'C', 1, 1, 1), '1\t0');
     await button(page, 'Synthesise').click();
     await page.getByText('Every lane has gains whose certificate holds.').waitFor();
     await view.close();
