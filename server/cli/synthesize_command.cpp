@@ -1,4 +1,6 @@
 // `vigil synthesize`: gains and certificate of every lane that needs them, no run.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -20,19 +22,25 @@ struct SynthesizeCommand {
   GainFinder gains;
 };
 
-/// Numbers as a person reads them, lists with blanks between.
+/// One value a subsystem, with blanks between; of many the extremes.
+std::string list_cell(const Json& values) {
+  std::vector<double> numbers;
+  for (const Json& value : values) numbers.push_back(value.is_number() ? value.get<double>() : std::nan(""));
+  if (numbers.size() > 4) {
+    const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
+    return six_digits(*low) + ".." + six_digits(*high);
+  }
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : " ") + six_digits(number);
+  return text;
+}
+
 std::string cell(const Json& record, const char* key) {
   const auto place = record.find(key);
-  if (place == record.end() || place->is_null()) return "-";
+  if (place == record.end()) return "-";
   if (place->is_string()) return place->get<std::string>();
   if (place->is_number()) return six_digits(place->get<double>());
-  std::string text;
-  if (place->is_array()) {
-    for (const Json& value : *place) {
-      text += (text.empty() ? "" : " ") + (value.is_number() ? six_digits(value.get<double>()) : "-");
-    }
-  }
-  return text;
+  return place->is_array() ? list_cell(*place) : "-";
 }
 
 std::string table(const std::vector<DesignItem>& items) {

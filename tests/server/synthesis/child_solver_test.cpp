@@ -59,8 +59,8 @@ TEST_F(Child, AnswersAsTheSolverInThisProcessDoes) {
 }
 
 TEST_F(Child, TakesAProblemLongerThanAnyBuffer) {
-  const SdpProblem problem = long_problem(250);
-  ASSERT_GT(to_json(problem).dump().size(), 500'000u);
+  const SdpProblem problem = long_problem(170);
+  ASSERT_GT(to_json(problem).dump().size(), 300'000u);
   ChildSolver solver(VIGIL_EXECUTABLE);
   const SdpSolution solution = solver.solve(problem, 60);
   EXPECT_EQ(solution.verdict, SdpVerdict::solved) << solution.detail;
@@ -86,7 +86,7 @@ TEST_F(Child, IsEndedAtItsLimitInTheMiddleOfAStepOfTheLibrary) {
 
 TEST_F(Child, ThatReadsNothingIsEndedToo) {
   ChildSolver solver(silent(folder_));
-  EXPECT_EQ(solver.solve(long_problem(250), 0.5).verdict, SdpVerdict::timed_out);
+  EXPECT_EQ(solver.solve(long_problem(170), 0.5).verdict, SdpVerdict::timed_out);
 }
 
 TEST_F(Child, WhateverBecomesOfItIsAVerdict) {
