@@ -51,6 +51,7 @@ export function fit(values: { lo: number; hi: number } | null, log: boolean, mid
     const lo = Math.floor(Math.log10(values.lo) * 2 - 0.2) / 2;
     return { log, lo: 10 ** lo, hi: 10 ** Math.max(hi, lo + 1) };
   }
+  if (values.lo === 0 && values.hi === 0) return { log, lo: -1, hi: 1 };
   const step = niceStep(Math.max(values.hi - values.lo, Math.abs(values.hi) * 1e-6, 1e-12) / 4);
   const lo = Math.floor(values.lo / step) * step;
   const hi = Math.ceil(values.hi / step) * step;

@@ -18,7 +18,8 @@ describe('places of an attack by hand', () => {
     const areas = { links: [], nodes: [{ id: '1', position: null, state: 'sensor.1.state', actuator: true }, { id: '2', position: null, state: null, actuator: false }] };
     expect(placesOf(areas, 'actuator')).toEqual(['1']);
     expect(usualKind(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), areas)).toBe('actuator');
-    expect(usualKind(run({}), areas)).toBe('sensor');
+    expect(usualKind(run({}), areas)).toBe('actuator');
+    expect(usualKind(run({ r: { type: 'bias', on: ['sensor:1'] } }), areas)).toBe('sensor');
     expect(typesAt(['bias', 'dos', 'waveform'], 'actuator')).toEqual(['bias', 'waveform']);
     expect(usualType(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), ['bias', 'waveform'], 'actuator')).toBe('bias');
   });

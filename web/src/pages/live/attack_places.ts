@@ -2,7 +2,7 @@
 import type { RunDetail } from '../../api/types';
 import type { RunModel } from './model';
 
-export const placeKinds = ['link', 'sensor', 'actuator'] as const;
+export const placeKinds = ['link', 'actuator', 'sensor'] as const;
 export type PlaceKind = (typeof placeKinds)[number];
 
 type Places = Pick<RunModel, 'links' | 'nodes'>;
@@ -36,7 +36,7 @@ function actsOn(attack: Attacks[string], kind: PlaceKind): boolean {
   return Array.isArray(attack?.on) && attack.on.some((place) => String(place).startsWith(`${kind}:`));
 }
 
-/** What the scenario's own adversary acts on; where it has none, links before sensors before actuators. */
+/** What the scenario's own adversary acts on; where it has none, links before actuators before sensors. */
 export function usualKind(run: Pick<RunDetail, 'document'> | null, model: Places | null): PlaceKind {
   const attacks = Object.values((run?.document?.adversary ?? {}) as Attacks);
   const own = placeKinds.find((kind) => attacks.some((attack) => actsOn(attack, kind)));

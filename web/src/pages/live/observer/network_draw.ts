@@ -22,19 +22,26 @@ interface Place {
 
 const half = { width: 39, height: 17 };
 
-/** The centres of the boxes: alone in the middle, two side by side, more on an ellipse from the left over the top. */
+/** px by which the inner boxes of a row stand out, so that arrows along the row pass them by. */
+const bow = 21;
+
+/** The centres of the boxes, in the order of a walk round: alone in the middle, two side by side, more in two rows. */
 export function places(count: number, width: number, height: number): Place[] {
   const [cx, cy] = [width / 2, height / 2];
   if (count === 1) return [{ x: cx, y: cy }];
-  const rx = Math.max(0, cx - half.width - 8);
-  const ry = Math.max(0, cy - half.height - 12);
-  const [reach, rise] = [Math.min(rx, count === 2 ? 120 : count === 4 ? 200 : 300), ry];
-  // Four stand at the corners, so that no arrow is short.
-  if (count === 4) return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([dx, dy]) => ({ x: cx + dx! * reach, y: cy + dy! * rise }));
-  return Array.from({ length: count }, (_, i) => {
-    const angle = Math.PI + (2 * Math.PI * i) / count;
-    return { x: cx + reach * Math.cos(angle), y: cy + (count === 2 ? 0 : rise * Math.sin(angle)) };
-  });
+  const reach = Math.max(0, cx - half.width - 6);
+  const rise = Math.max(0, cy - half.height - 9);
+  const row = (boxes: number, side: -1 | 1): Place[] => {
+    const apart = Math.min(170, (2 * reach) / Math.max(1, boxes - 1));
+    const out = boxes > 2 ? Math.min(bow, rise / 2) : 0;
+    return Array.from({ length: boxes }, (_, i) => {
+      const inner = i > 0 && i < boxes - 1;
+      return { x: cx + (i - (boxes - 1) / 2) * apart, y: cy + side * (rise - (inner ? 0 : out)) };
+    });
+  };
+  if (count === 2) return row(2, -1).map(({ x }) => ({ x, y: cy }));
+  const above = Math.ceil(count / 2);
+  return [...row(above, -1), ...row(count - above, 1).reverse()];
 }
 
 /** Where a ray from a box's centre leaves it. */

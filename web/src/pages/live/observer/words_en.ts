@@ -30,6 +30,7 @@ export const en = {
 
   methods: 'Methods compared',
   methods_note: 'size of the attack’s error, logarithmic; figures over {from} to {to} s',
+  methods_empty: 'Nobody is attacked in this run.',
   size_of_error: '|error of {name}|, subsystem {id}',
   size_label: '{what}: size of every shown lane’s error over time, logarithmic over at most five decades',
   figure: 'Figure',

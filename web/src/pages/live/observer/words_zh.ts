@@ -33,6 +33,7 @@ export const zh: Translation<typeof en> = {
 
   methods: '方法比较',
   methods_note: '攻击误差的大小，对数坐标；统计区间 {from} 至 {to} s',
+  methods_empty: '本次运行没有攻击。',
   size_of_error: '子系统 {id}：|{name} 的误差|',
   size_label: '{what}：所示各方法误差大小随时间的变化，对数坐标，至多五个数量级',
   figure: '指标',
