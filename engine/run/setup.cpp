@@ -87,6 +87,8 @@ void Run::State::set_world(const Json& document) {
     throw InputError("/plant", fmt::format("the plant has {} states; at most {} are supported", n, kMaxSmall));
   const Json& controller = document["controller"];
   if (controller["type"] != "none") {
+    if (world.continuous() != nullptr)
+      throw InputError("/controller/type", "a plant in continuous time has no controller; expected none", "none");
     const auto& entry = entry_of<ControllerMake>(controller["type"].get<std::string>(), "/controller/type");
     world.controller =
         under("/controller/params", [&] { return entry.make(Params(controller["params"]), *world.plant); });
@@ -94,8 +96,6 @@ void Run::State::set_world(const Json& document) {
   set_nodes(document);
   set_noise(document);
   if (const ContinuousPlant* plant = world.continuous()) {
-    if (world.controller)
-      throw InputError("/controller/type", "a plant in continuous time has no controller; expected none");
     plant->check_nodes(nodes, world.sensors);
     world.drive = Drive(*plant, document["nodes"]);
   }

@@ -179,7 +179,9 @@ TEST(Attacks, PlainOnesHaveTheirFrequencies) {
 
 TEST(Attacks, AreValues) {
   for (const auto& entry : Registry<AttackMake>::all()) {
-    const auto attack = make(entry.id, Json::object());
+    Json params = Json::object();
+    if (entry.id == "waveform") params["pieces"] = Json::array({Json::array({1, 0.5, 0, 0, 0, 0, 0})});
+    const auto attack = make(entry.id, params);
     const auto copy = attack->clone();
     for (std::int64_t k = 1; k <= 50; ++k)
       EXPECT_EQ(effects_of({attack.get()}, k).state, effects_of({copy.get()}, k).state) << entry.id;

@@ -1,4 +1,7 @@
 /// The observer presets as runs, with gains that are solved for: the tables of the specification, section 8.
+#include <fstream>
+#include <sstream>
+
 #include "engine/run/design.hpp"
 #include "server/synthesis/dsdp_solver.hpp"
 #include "tests/engine/methods/observer/networks.hpp"
@@ -136,6 +139,18 @@ Scenario line(int k) {
     params["couplings"][std::to_string(i - 1) + "-" + id] = std::move(H);
   }
   return Scenario::from_json(document);
+}
+
+TEST(ObserverTables, TheDocumentedSystemRuns) {
+  std::ifstream file(std::string(VIGIL_SOURCE_DIR) + "/docs/scenario.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string page = text.str(), open = "```json\n";
+  const std::size_t from = page.find(open, page.find("## Interconnected subsystems")) + open.size();
+  ASSERT_LT(from, page.size());
+  const Solved documented(Scenario::from_json(Json::parse(page.substr(from, page.find("```", from) - from))));
+  EXPECT_EQ(documented.run().tick(), 1000);
+  EXPECT_TRUE(documented.run().faults().empty());
 }
 
 TEST(ObserverTables, SystemsOfOnesOwnOfMixedSizesAndOneWayCouplings) {
