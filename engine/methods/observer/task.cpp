@@ -60,9 +60,14 @@ Json record_of(const Prepared& made, const std::string& key, const DesignResult&
   if (result.design) {
     record.update(to_json(*result.design));
   } else {
-    record.update({{"L", nothing}, {"P", nothing}, {"gamma_d", nothing}, {"gamma_w", nothing}, {"kappa", nothing}});
-    if (!made.settings.gains.empty())
+    for (const char* missing : {"L", "P", "gamma_d", "gamma_w", "kappa", "lambda_max_sigma", "lambda_min_p"})
+      record[missing] = nothing;
+    if (made.settings.gains.empty()) {
+      record["max_real_pole"] = nothing;
+      record["fastest_pole"] = nothing;
+    } else {
       record["L"] = to_json(Design{.L = made.settings.gains, .P = {}, .gamma_d = {}, .gamma_w = {}, .kappa = {}})["L"];
+    }
   }
   if (made.settings.source != Source::design || !result.design) record["objective"] = nothing;
   record["matched"] = Json::array();
