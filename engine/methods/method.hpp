@@ -21,6 +21,11 @@
 
 namespace vigil {
 
+namespace privacy {
+class Protection;
+}
+class FusionMethod;
+
 /// What every node may honestly know before the run.
 struct Knowledge {
   std::shared_ptr<const Plant> plant;
@@ -35,7 +40,10 @@ struct Knowledge {
   bool monitor = false;          ///< its estimator hears what was sent, only its detector what arrived
   double dt = 1;                 ///< s
   std::uint64_t seed = 0;        ///< of a method's own draws: Draws(seed, "method.<what>"), the same for every lane
-  Json design;                   ///< the record of what was solved for this lane before the run; null: nothing was
+  Eigen::VectorXd prior;         ///< mean of the initial state, states
+  bool stationary = false;       ///< the initial estimates come from the stationary law of the local filters
+  std::shared_ptr<const privacy::Protection> protection;  ///< of a fusion centre's messages; null: none
+  Json design;  ///< the record of what was solved for this lane before the run; null: nothing was
 };
 
 /// What a node received on one link in one exchange round.
@@ -147,6 +155,8 @@ class Method {
   /// Null: its time goes in ticks.
   virtual ContinuousMethod* continuous() { return nullptr; }
   virtual const ContinuousMethod* continuous() const { return nullptr; }
+  /// Null: it has no fusion centre.
+  virtual const FusionMethod* fusion() const { return nullptr; }
   /// Of which states of the plant an output's mean consists; empty: of all, in their order.
   virtual std::vector<int> components(int /*output*/) const { return {}; }
   virtual UnknownInputs unknown_inputs(int /*output*/) const { return {}; }

@@ -48,12 +48,7 @@ Adversary::Adversary(const Adversary& other)
 }
 
 int Adversary::find_link(const std::string& from, const std::string& to) const {
-  for (int l = 0; l < static_cast<int>(graph_.links().size()); ++l) {
-    const Link& link = graph_.links()[static_cast<std::size_t>(l)];
-    if (nodes_[static_cast<std::size_t>(link.from)] == from && nodes_[static_cast<std::size_t>(link.to)] == to)
-      return l;
-  }
-  return -1;
+  return graph_.find(end_index(from, nodes_, graph_), end_index(to, nodes_, graph_));
 }
 
 SensorPlace Adversary::find_channel(const Place& at, const std::string& pointer) const {
@@ -98,8 +93,7 @@ void Adversary::find_places(const Json& on, const std::string& pointer, Entry& e
   entry.links.erase(std::unique(entry.links.begin(), entry.links.end()), entry.links.end());
   if (entry.links.size() + entry.sensors.size() + entry.actuators.size() != 1) return;
   if (!entry.links.empty()) {
-    const Link& link = graph_.links()[static_cast<std::size_t>(entry.links.front())];
-    entry.link_name = nodes_[static_cast<std::size_t>(link.from)] + "-" + nodes_[static_cast<std::size_t>(link.to)];
+    entry.link_name = link_name(graph_.links()[static_cast<std::size_t>(entry.links.front())], nodes_);
   } else {
     const auto& places = entry.sensors.empty() ? entry.actuators : entry.sensors;
     entry.node_name = nodes_[static_cast<std::size_t>(places.front().node)];

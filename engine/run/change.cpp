@@ -151,11 +151,9 @@ void Run::State::set_graph(const Json& value) {
     places.push_back(base.find(link.from, link.to));
     if (places.back() < 0) {
       throw InputError("/params/network.graph",
-                       fmt::format("\"{}\" needs the channel {}-{}, which this run was not started with; a live change "
-                                   "may only use channels of "
-                                   "the run's first graph",
-                                   value.get<std::string>(), nodes[static_cast<std::size_t>(link.from)],
-                                   nodes[static_cast<std::size_t>(link.to)]));
+                       fmt::format("\"{}\" needs the channel {}, which this run was not started with; a live change "
+                                   "may only use channels of the run's first graph",
+                                   value.get<std::string>(), link_name(link, nodes)));
     }
   }
   graph = wanted;

@@ -114,9 +114,10 @@ Json Run::world() const {
   }
   for (const Link& link : s.graph.links()) {
     const std::string& from = s.nodes[static_cast<std::size_t>(link.from)];
-    const std::string& to = s.nodes[static_cast<std::size_t>(link.to)];
-    world["links"].push_back({{"id", from + "-" + to}, {"from", from}, {"to", to}});
+    const std::string to = link.to == s.graph.centre() ? kCentre : s.nodes[static_cast<std::size_t>(link.to)];
+    world["links"].push_back({{"id", link_name(link, s.nodes)}, {"from", from}, {"to", to}});
   }
+  if (s.graph.centre() >= 0) world["centre"] = kCentre;
   for (const Lane& lane : s.lanes)
     world["lanes"].push_back({{"id", lane.id()}, {"method", lane.method_id()}, {"adversary", !lane.spared()}});
   for (const Component& c : s.world.plant->state()) world["state"].push_back({{"name", c.name}, {"unit", c.unit}});

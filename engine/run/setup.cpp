@@ -195,7 +195,7 @@ void Run::State::declare_signals() {
   slots.sensor = declare_sensors("", "", nodes, world, catalogue);
   declare_drives();
   for (const Link& link : base.links()) {
-    const std::string id = nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
+    const std::string id = link_name(link, nodes);
     slots.link.push_back(add("link." + id + ".state", "", SignalKind::category, "", id));
     for (const Component& c : world.plant->state())
       add("link." + id + ".injected." + c.name, c.unit, SignalKind::scalar, "", id);

@@ -67,8 +67,7 @@ void Run::State::find_columns() {
   columns.shared = course_columns("");
   const auto find = [&](const std::string& name) { return trace ? trace->find(name) : -1; };
   for (const Link& link : base.links()) {
-    const std::string name =
-        "link." + nodes[static_cast<std::size_t>(link.from)] + "-" + nodes[static_cast<std::size_t>(link.to)];
+    const std::string name = "link." + link_name(link, nodes);
     columns.link_state.push_back(find(name + ".state"));
     if (columns.link_state.back() >= 0)
       check_states(*trace, columns.link_state.back(), static_cast<int>(LinkState::replay));

@@ -98,7 +98,7 @@ Json node() {
 }
 
 Json network() {
-  const Json named = choice({"none", "ring", "ladder", "path", "complete", "knn2", "knn3", "edges"});
+  const Json named = choice({"none", "ring", "ladder", "path", "complete", "centre", "knn2", "knn3", "edges"});
   const Json by_number = {{"type", "string"}, {"pattern", "^(knn[1-9][0-9]*|radius[0-9.]+(e[+-]?[0-9]+)?)$"}};
   Json graph = leaf({{"anyOf", Json::array({named, by_number})}},
                     {"Graph by name; also knn<k> and radius<r>", "网络拓扑名称；也可用 knn<k> 与 radius<r>"}, "none");

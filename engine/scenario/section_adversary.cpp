@@ -27,18 +27,13 @@ struct Ground {
     }
   }
 
-  int index(const std::string& id) const {
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      if (nodes[n] == id) return static_cast<int>(n);
-    }
-    return -1;
-  }
+  int index(const std::string& id) const { return end_index(id, nodes, graph.value_or(Graph())); }
 };
 
 std::optional<Problem> check_link(const Place& place, const Ground& ground, const std::string& text,
                                   const std::string& pointer) {
   for (const std::string& id : {place.from, place.to}) {
-    if (ground.index(id) >= 0) continue;
+    if (ground.index(id) >= 0 || (id == kCentre && !ground.graph)) continue;
     return Problem{pointer,
                    in_quotes(text) + " names node " + in_quotes(id) + ", which is not there; expected nodes of " +
                        listed(ground.nodes),
@@ -48,8 +43,7 @@ std::optional<Problem> check_link(const Place& place, const Ground& ground, cons
   if (known) return std::nullopt;
   std::vector<std::string> links;
   for (const Link& link : ground.graph->links()) {
-    links.push_back(ground.nodes[static_cast<std::size_t>(link.from)] + "-" +
-                    ground.nodes[static_cast<std::size_t>(link.to)]);
+    links.push_back(link_name(link, ground.nodes));
   }
   return Problem{pointer, in_quotes(text) + " is no link of the network; expected one of " + listed(links),
                  listed(links)};

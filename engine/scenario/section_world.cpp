@@ -12,10 +12,10 @@
 namespace vigil::section {
 namespace {
 
-const std::vector<std::string> kGraphs{"none", "ring", "ladder",  "path", "complete",
-                                       "knn2", "knn3", "radius1", "edges"};
+const std::vector<std::string> kGraphs{"none",   "ring", "ladder", "path",    "complete",
+                                       "centre", "knn2", "knn3",   "radius1", "edges"};
 /// Words that stand in a node's place in signal names.
-const std::vector<std::string> kReserved{"fused", "sent", "eve", "truth", "input", "sensor"};
+const std::vector<std::string> kReserved{kCentre, "optimal", "sent", "eve", "truth", "input", "sensor"};
 
 Json member(const Json& given, const char* key, const Json& fallback) {
   const auto place = given.find(key);

@@ -16,7 +16,7 @@ namespace {
 using Edges = std::vector<std::pair<int, int>>;
 
 constexpr int kLadder = 8;
-constexpr const char* kNames = "none, ring, ladder (8 nodes), path, complete, knn<k>, radius<r>, edges";
+constexpr const char* kNames = "none, ring, ladder (8 nodes), path, complete, centre, knn<k>, radius<r>, edges";
 /// Distances that differ by less are the same: positions come in decimal, and 1.8 - 1.2 is not 0.6 in binary.
 constexpr double kSame = 1e-9;
 
@@ -146,6 +146,14 @@ Graph::Graph(int nodes, const std::vector<std::pair<int, int>>& edges) : nodes_(
   for (std::size_t i = 1; i < first_in_.size(); ++i) first_in_[i] += first_in_[i - 1];
 }
 
+Graph Graph::to_centre(int nodes) {
+  Graph graph(nodes, {});
+  graph.centre_ = nodes;
+  for (int i = 0; i < nodes; ++i) graph.links_.push_back({i, nodes});
+  graph.first_in_.push_back(nodes);
+  return graph;
+}
+
 int Graph::degree(int node) const { return first_in(node + 1) - first_in(node); }
 
 int Graph::max_degree() const {
@@ -155,7 +163,7 @@ int Graph::max_degree() const {
 }
 
 bool Graph::connected() const {
-  if (nodes_ == 0) return true;
+  if (nodes_ == 0 || centre_ >= 0) return true;
   std::vector<bool> seen(static_cast<std::size_t>(nodes_), false);
   std::vector<int> open{0};
   seen[0] = true;
@@ -175,16 +183,31 @@ bool Graph::connected() const {
 }
 
 int Graph::find(int from, int to) const {
-  if (to < 0 || to >= nodes_) return -1;
+  if (to < 0 || (to >= nodes_ && to != centre_)) return -1;
   for (int n = first_in(to); n < first_in(to + 1); ++n) {
     if (links_[static_cast<std::size_t>(n)].from == from) return n;
   }
   return -1;
 }
 
+std::string link_name(const Link& link, const std::vector<std::string>& nodes) {
+  const auto name = [&](int end) {
+    const auto place = static_cast<std::size_t>(end);
+    return place < nodes.size() ? nodes[place] : std::string(kCentre);
+  };
+  return name(link.from) + "-" + name(link.to);
+}
+
+int end_index(const std::string& id, const std::vector<std::string>& nodes, const Graph& graph) {
+  if (id == kCentre) return graph.centre();
+  const auto found = std::find(nodes.begin(), nodes.end(), id);
+  return found == nodes.end() ? -1 : static_cast<int>(found - nodes.begin());
+}
+
 Graph make_graph(std::string_view name, const Eigen::Matrix2Xd& positions) {
   const auto nodes = static_cast<int>(positions.cols());
   if (const auto edges = plain(name, nodes)) return {nodes, *edges};
+  if (name == "centre") return Graph::to_centre(nodes);
   if (const auto wanted = neighbours_wanted(name)) {
     need_positions(name, positions);
     return {nodes, nearest_neighbours(*wanted, positions)};
@@ -197,7 +220,8 @@ Graph make_graph(std::string_view name, const Eigen::Matrix2Xd& positions) {
 }
 
 bool is_graph_name(std::string_view name) {
-  const bool by_word = name == "none" || name == "ring" || name == "ladder" || name == "path" || name == "complete";
+  const bool by_word =
+      name == "none" || name == "ring" || name == "ladder" || name == "path" || name == "complete" || name == "centre";
   return by_word || neighbours_wanted(name).has_value() || suffix(name, "radius").has_value();
 }
 

@@ -25,8 +25,12 @@ class Graph {
   /// Edges as pairs of distinct node indices below `nodes`; an edge given twice counts once. Throws InputError at
   /// /network/edges.
   Graph(int nodes, const std::vector<std::pair<int, int>>& edges);
+  /// Every node has one channel, to a fusion centre that is no node: links()[i] is {i, nodes}.
+  static Graph to_centre(int nodes);
 
   int nodes() const { return nodes_; }
+  /// Where links to the fusion centre end, -1 where there is none.
+  int centre() const { return centre_; }
   const std::vector<Link>& links() const { return links_; }
   int first_in(int node) const {
     return first_in_[static_cast<std::size_t>(node)];
@@ -38,13 +42,21 @@ class Graph {
 
  private:
   int nodes_ = 0;
+  int centre_ = -1;
   std::vector<Link> links_;
   std::vector<int> first_in_;
 };
 
+/// What the fusion centre is called among the ends of links.
+inline constexpr const char* kCentre = "fused";
+/// "2-5", "2-fused": a link by the ids of its ends.
+std::string link_name(const Link& link, const std::vector<std::string>& nodes);
+/// The index of a link's end by its id, the centre's included; -1 where there is no such end.
+int end_index(const std::string& id, const std::vector<std::string>& nodes, const Graph& graph);
+
 /// Builds a named graph over node positions (one column a node, the profile's length unit): "none", "ring", "ladder" (8
-/// nodes), "path", "complete", "knn<k>", "radius<r>". Throws InputError at /network/graph for an unknown name or one
-/// that does not fit.
+/// nodes), "path", "complete", "centre", "knn<k>", "radius<r>". Throws InputError at /network/graph for an unknown name
+/// or one that does not fit.
 Graph make_graph(std::string_view name, const Eigen::Matrix2Xd& positions);
 
 /// True where make_graph knows the name.
