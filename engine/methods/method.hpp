@@ -116,6 +116,7 @@ struct OwnMetric {
   std::string name;
   double value = 0;
   bool boolean = false;
+  std::string variant;  ///< as MetricValue has it: of which of several like it
 };
 
 class ContinuousMethod;

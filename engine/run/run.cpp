@@ -63,7 +63,7 @@ std::vector<MetricValue> Run::metrics() const {
     lane.append_metrics(metrics);
     for (const OwnMetric& own : lane.method().metrics()) {
       metrics.push_back({lane.id(), own.output >= 0 ? lane.outputs()[static_cast<std::size_t>(own.output)] : "",
-                         own.name, "", own.value, own.boolean});
+                         own.name, own.variant, own.value, own.boolean});
     }
     std::vector<FaultCount> faults;
     lane.faults().append(lane.id(), lane.outputs(), faults);

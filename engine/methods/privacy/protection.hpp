@@ -35,6 +35,8 @@ class Eavesdropper {
   virtual std::unique_ptr<Eavesdropper> clone() const = 0;
   /// messages: states x sensors, as sent; a column i with heard[i] == 0 is NaN. Called at every tick from 0 on.
   virtual void listen(const PublicTick& tick, const Eigen::MatrixXd& messages, std::span<const char> heard) = 0;
+  /// Before listen(), in a tick in which Protection::published() is not null: what everybody may read.
+  virtual void see(const PublicTick& /*tick*/, const Eigen::VectorXd& /*published*/) {}
   virtual const Eigen::VectorXd& estimate() const = 0;  ///< of the state, states
 };
 
@@ -63,6 +65,11 @@ class Protection {
   /// The default takes what came for local estimates and predicts what did not.
   virtual void decode(const PublicTick& tick, const Eigen::MatrixXd& received, std::span<const char> lost,
                       Decoded& decoded);
+  /// What the centre has fused in this tick (states): after decode() and the method's fusion, at every tick from 0 on.
+  virtual void release(const PublicTick& /*tick*/, const Eigen::VectorXd& /*fused*/) {}
+  /// What the centre has published of it in this tick, states; null where it publishes nothing. Eavesdroppers see it,
+  /// so they come after release().
+  virtual const Eigen::VectorXd* published() const { return nullptr; }
   /// White noise that encode() adds to the local estimates and decode() leaves there: its stacked covariance, (n L) x
   /// (n L); empty: none.
   virtual Eigen::MatrixXd noise() const { return {}; }
