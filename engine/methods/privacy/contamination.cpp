@@ -51,30 +51,41 @@ Legitimate legitimate_from(const MatrixXd& P, int n) {
   return {.Wf = nominal.W, .P = nominal.P, .X = nominal.W * P, .S = {}};
 }
 
-void step_legitimate(std::span<const LocalStep> steps, const std::vector<LocalGains>& gains, const MatrixXd& Qb,
-                     const MatrixXd& P, const MatrixXd& Af, const VectorXd& h, Legitimate& user) {
+Foresight foresee(std::span<const LocalStep> steps, const std::vector<LocalGains>& gains, const MatrixXd& Qb,
+                  const MatrixXd& Af, const Legitimate& user) {
   const auto n = Qb.rows();
-  const auto count = static_cast<int>(steps.size());
-  MatrixXd Xp(P.rows(), n);  // E[local errors * prediction error']
-  for (int i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const MatrixXd before = user.X.middleCols(i * n, n).transpose();
-    Xp.middleRows(i * n, n) = gains[at].F * (steps[at].A * before * Af.transpose() + Qb);
+  Foresight prediction{.P = Af * user.P * Af.transpose() + Qb,
+                       .X = MatrixXd(n * static_cast<Eigen::Index>(steps.size()), n)};
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i) * n;
+    prediction.X.middleRows(at, n) =
+        gains[i].F * (steps[i].A * user.X.middleCols(at, n).transpose() * Af.transpose() + Qb);
   }
+  return prediction;
+}
+
+void take_in(const MatrixXd& P, const Foresight& prediction, const VectorXd& h, const MatrixXd& noise,
+             Legitimate& user) {
+  const auto n = prediction.P.rows();
+  const auto count = P.rows() / n;
   const VectorXd gone = contaminated_mask(h);
   const auto H = h.asDiagonal(), Hb = gone.asDiagonal();
-  const MatrixXd Pp = Af * user.P * Af.transpose() + Qb;
-  const MatrixXd mixed = H * Xp.replicate(1, count) * Hb;
-  user.S = H * P * H;
+  const MatrixXd mixed = H * prediction.X.replicate(1, count) * Hb;
+  user.S = H * (noise.size() > 0 ? MatrixXd(P + noise) : P) * H;
   user.S += mixed + mixed.transpose();
-  user.S += Hb * Pp.replicate(count, count) * Hb;
+  user.S += Hb * prediction.P.replicate(count, count) * Hb;
   symmetrise(user.S);
   const Fusion fused = fuse(user.S, static_cast<int>(n));
   user.Wf = fused.W;
   user.P = fused.P;
   MatrixXd of_locals = H * P;
-  of_locals += Hb * Xp.transpose().replicate(count, 1);
+  of_locals += Hb * prediction.X.transpose().replicate(count, 1);
   user.X = user.Wf * of_locals;
+}
+
+void step_legitimate(std::span<const LocalStep> steps, const std::vector<LocalGains>& gains, const MatrixXd& Qb,
+                     const MatrixXd& P, const MatrixXd& Af, const VectorXd& h, Legitimate& user) {
+  take_in(P, foresee(steps, gains, Qb, Af, user), h, {}, user);
 }
 
 MatrixXd eavesdropper_covariance(const Fusion& nominal, const MatrixXd& P, const MatrixXd& Lam, const VectorXd& h) {

@@ -42,8 +42,19 @@ struct Legitimate {
 Legitimate legitimate_start(const Eigen::MatrixXd& P0, int count);
 /// Where the local filters have covariance P, not singular, and the user has fused them: the stationary start.
 Legitimate legitimate_from(const Eigen::MatrixXd& P, int n);
-/// One step, after the local filters': steps and gains are this tick's, P their covariance after it, Af the transition
-/// of the fused prediction.
+/// What the user's prediction is worth.
+struct Foresight {
+  Eigen::MatrixXd P;  ///< of its error, n x n
+  Eigen::MatrixXd X;  ///< E[local errors * its error'], (n L) x n
+};
+/// After the local filters' step: steps and gains are this tick's, Af the transition of the fused prediction.
+Foresight foresee(std::span<const LocalStep> steps, const std::vector<LocalGains>& gains, const Eigen::MatrixXd& Qb,
+                  const Eigen::MatrixXd& Af, const Legitimate& user);
+/// Fuses what came, its prediction standing where h is 0. P: of the local errors; noise: what was added to the local
+/// estimates before they were sent, (n L) x (n L) or empty.
+void take_in(const Eigen::MatrixXd& P, const Foresight& prediction, const Eigen::VectorXd& h,
+             const Eigen::MatrixXd& noise, Legitimate& user);
+/// foresee() and then take_in() without noise: one step, where P is the local filters' covariance after it.
 void step_legitimate(std::span<const LocalStep> steps, const std::vector<LocalGains>& gains, const Eigen::MatrixXd& Qb,
                      const Eigen::MatrixXd& P, const Eigen::MatrixXd& Af, const Eigen::VectorXd& h, Legitimate& user);
 

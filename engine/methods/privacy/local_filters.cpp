@@ -13,17 +13,17 @@ using Eigen::MatrixXd;
 constexpr int kDoublings = 60;
 constexpr double kSettled = 1e-15;  // relative change that ends the doubling
 
-std::optional<LocalGains> gains_of(const MatrixXd& Pz, const MatrixXd& C, const MatrixXd& R) {
+MatrixXd own_noise(const LocalGains& gains, const MatrixXd& R) { return gains.K * R * gains.K.transpose(); }
+
+}  // namespace
+
+std::optional<LocalGains> local_gains(const MatrixXd& Pz, const MatrixXd& C, const MatrixXd& R) {
   const Eigen::LLT<MatrixXd> S(C * Pz * C.transpose() + R);
   if (S.info() != Eigen::Success) return std::nullopt;
   LocalGains gains{.K = S.solve(C * Pz).transpose(), .F = {}};
   gains.F = MatrixXd::Identity(Pz.rows(), Pz.rows()) - gains.K * C;
   return gains;
 }
-
-MatrixXd own_noise(const LocalGains& gains, const MatrixXd& R) { return gains.K * R * gains.K.transpose(); }
-
-}  // namespace
 
 std::vector<LocalStep> local_steps(const FusionModel& model) {
   std::vector<LocalStep> steps;
@@ -38,10 +38,17 @@ std::optional<std::vector<LocalGains>> step_local(std::span<const LocalStep> ste
   std::vector<LocalGains> gains;
   for (const LocalStep& step : steps) {
     const auto at = static_cast<Eigen::Index>(gains.size()) * n;
-    const auto found = gains_of(step.A * P.block(at, at, n, n) * step.A.transpose() + Qb, step.C, step.R);
+    const auto found = local_gains(step.A * P.block(at, at, n, n) * step.A.transpose() + Qb, step.C, step.R);
     if (!found) return std::nullopt;
     gains.push_back(*found);
   }
+  step_errors(steps, gains, Qb, P);
+  return gains;
+}
+
+void step_errors(std::span<const LocalStep> steps, const std::vector<LocalGains>& gains, const MatrixXd& Qb,
+                 MatrixXd& P) {
+  const auto n = Qb.rows();
   for (std::size_t i = 0; i < gains.size(); ++i) {
     for (std::size_t j = i; j < gains.size(); ++j) {
       const auto row = static_cast<Eigen::Index>(i) * n, column = static_cast<Eigen::Index>(j) * n;
@@ -53,7 +60,6 @@ std::optional<std::vector<LocalGains>> step_local(std::span<const LocalStep> ste
     }
   }
   symmetrise(P);
-  return gains;
 }
 
 std::optional<StationaryFilters> stationary_filters(const FusionModel& model) {
@@ -62,7 +68,7 @@ std::optional<StationaryFilters> stationary_filters(const FusionModel& model) {
   std::vector<MatrixXd> F, noise;
   for (const SensorModel& sensor : model.sensors) {
     const auto Pz = solve_dare(model.A.transpose(), sensor.C.transpose(), Qb, sensor.R);
-    const auto gains = Pz ? gains_of(*Pz, sensor.C, sensor.R) : std::nullopt;
+    const auto gains = Pz ? local_gains(*Pz, sensor.C, sensor.R) : std::nullopt;
     if (!gains) return std::nullopt;
     filters.gains.push_back(*gains);
     filters.Psi.push_back(gains->F * model.A);

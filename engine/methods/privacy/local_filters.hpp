@@ -23,6 +23,9 @@ struct LocalGains {
   Eigen::MatrixXd F;  ///< I - K C, n x n
 };
 
+/// The gain of a filter whose prediction has covariance Pz. Nothing where the innovation's is not positive definite.
+std::optional<LocalGains> local_gains(const Eigen::MatrixXd& Pz, const Eigen::MatrixXd& C, const Eigen::MatrixXd& R);
+
 /// Where all filters start alike from a guess with covariance P0: P_ij = P0 for all i, j.
 Eigen::MatrixXd common_start(const Eigen::MatrixXd& P0, int count);
 
@@ -30,6 +33,9 @@ Eigen::MatrixXd common_start(const Eigen::MatrixXd& P0, int count);
 /// innovation's covariance is not positive definite.
 std::optional<std::vector<LocalGains>> step_local(std::span<const LocalStep> steps, const Eigen::MatrixXd& Qb,
                                                   Eigen::MatrixXd& P);
+/// The same with gains that are given, whatever they are: P is what the errors then have.
+void step_errors(std::span<const LocalStep> steps, const std::vector<LocalGains>& gains, const Eigen::MatrixXd& Qb,
+                 Eigen::MatrixXd& P);
 
 struct StationaryFilters {
   std::vector<LocalGains> gains;
