@@ -9,12 +9,14 @@ void LinkEffects::resize(int message, int links) {
   state.assign(static_cast<std::size_t>(links), LinkState::clean);
   injected = Eigen::MatrixXd::Zero(message, links);
   strength = Eigen::VectorXd::Constant(links, std::numeric_limits<double>::quiet_NaN());
+  overheard.assign(static_cast<std::size_t>(links), 0);
 }
 
 void LinkEffects::clear() {
   std::fill(state.begin(), state.end(), LinkState::clean);
   injected.setZero();
   strength.setConstant(std::numeric_limits<double>::quiet_NaN());
+  std::fill(overheard.begin(), overheard.end(), 0);
 }
 
 void LinkEffects::jam(int link) {

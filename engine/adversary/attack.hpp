@@ -22,6 +22,7 @@ struct LinkEffects {
   Eigen::MatrixXd injected;      ///< message size x links; zero where nothing is injected
   Eigen::VectorXd
       strength;  ///< one a link: the attack signal drawn (a DoS has one too), NaN where the attack draws none
+  std::vector<char> overheard;  ///< one a link: somebody hears what is sent, whether it arrives or not
 
   void resize(int message, int links);
   void clear();

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/metrics/bound_ratio.hpp"
+#include "engine/metrics/confidentiality_score.hpp"
 #include "engine/run/state.hpp"
 
 namespace vigil {
@@ -69,10 +70,25 @@ MetricSummary summarise(const Series& series) {
   return summary;
 }
 
+/// Above and below of a log-ratio, in trial order.
+struct RatioPool {
+  std::vector<double> above, below;
+};
+
+/// log2 of the ratio of means; its standard error by the delta method, with the covariance of the two.
+void pool_ratio(const RatioPool& pool, MetricSummary& summary) {
+  const double above = mean_of(pool.above), below = mean_of(pool.below);
+  std::vector<double> relative;  // of which the log of the ratio is the mean, to first order
+  for (std::size_t i = 0; i < pool.above.size(); ++i) relative.push_back(pool.above[i] / above - pool.below[i] / below);
+  summary.mean = std::log2(above / below);
+  summary.se = error_of(relative, mean_of(relative)) / std::log(2.0);
+}
+
 }  // namespace
 
 struct TrialResult::Extra {
   std::vector<BoundRecord> bounds;
+  std::vector<RatioRecord> ratios;
 };
 
 TrialResult::TrialResult() = default;
@@ -95,7 +111,10 @@ TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_
   result.design = run.design();
   result.ticks = run.tick();
   result.extra = std::make_unique<TrialResult::Extra>();
-  for (Lane& lane : TrialAccess::state(run).lanes) result.extra->bounds.push_back(lane.take_record());
+  for (Lane& lane : TrialAccess::state(run).lanes) {
+    result.extra->bounds.push_back(lane.take_record());
+    if (const FusionSide* side = lane.fusion_side()) side->append_ratios(result.extra->ratios);
+  }
   return result;
 }
 
@@ -104,7 +123,8 @@ struct CampaignTable::State {
   std::map<Key, std::size_t> places;
   std::vector<Series> series;  ///< in the order first seen
   std::map<std::string, BoundRatio> bounds;
-  std::vector<std::string> lanes;  ///< with a bound record, in order
+  std::map<Key, RatioPool> ratios;  ///< of the series with the same key
+  std::vector<std::string> lanes;   ///< with a bound record, in order
   std::int64_t trials = 0;
 };
 
@@ -120,6 +140,11 @@ void CampaignTable::add(const TrialResult& trial) {
     if (std::isfinite(metric.value)) state_->series[place->second].values.push_back(metric.value);
   }
   if (!trial.extra) return;
+  for (const RatioRecord& ratio : trial.extra->ratios) {
+    auto& pool = state_->ratios[{ratio.lane, "", ratio.name, ratio.variant}];
+    pool.above.push_back(ratio.above);
+    pool.below.push_back(ratio.below);
+  }
   for (const BoundRecord& record : trial.extra->bounds) {
     if (record.errors.empty()) continue;
     const auto [place, fresh] = state_->bounds.try_emplace(record.lane);
@@ -130,7 +155,12 @@ void CampaignTable::add(const TrialResult& trial) {
 
 std::vector<MetricSummary> CampaignTable::summary() const {
   std::vector<MetricSummary> summary;
-  for (const Series& series : state_->series) summary.push_back(summarise(series));
+  for (const Series& series : state_->series) {
+    summary.push_back(summarise(series));
+    const auto& key = series.key;
+    const auto pool = state_->ratios.find({key.lane, key.node, key.name, key.variant});
+    if (pool != state_->ratios.end()) pool_ratio(pool->second, summary.back());
+  }
   for (const std::string& lane : state_->lanes) {
     MetricSummary ratio;
     ratio.key = {lane, "", "bound_ratio_max", "", 0, false};

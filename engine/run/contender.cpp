@@ -4,9 +4,9 @@
 
 namespace vigil {
 
-Contender::Contender(std::unique_ptr<Method> method, const World& world, const Graph& graph, Side side, bool monitor,
-                     std::optional<std::int64_t> last)
-    : method_(std::move(method)), side_(side), monitor_(monitor) {
+Contender::Contender(std::unique_ptr<Method> method, std::unique_ptr<privacy::Protection> protection,
+                     const World& world, const Graph& graph, Side side, bool monitor, std::optional<std::int64_t> last)
+    : method_(std::move(method)), protection_(std::move(protection)), side_(side), monitor_(monitor) {
   if (side_ != Side::shared) course_ = Course(world);
   if (side_ == Side::marked || side_ == Side::closed) channels_ = SensorChannels(world.sensors, last);
   if (method_->continuous() != nullptr) flow_ = LaneFlow(world, *method_->continuous());
@@ -15,6 +15,7 @@ Contender::Contender(std::unique_ptr<Method> method, const World& world, const G
 
 Contender::Contender(const Contender& other)
     : method_(other.method_->clone()),
+      protection_(other.protection_ ? other.protection_->clone() : nullptr),
       side_(other.side_),
       monitor_(other.monitor_),
       course_(other.course_),
@@ -29,7 +30,9 @@ void Contender::make_inbox(const Graph& graph) {
   outbox_ = Eigen::MatrixXd::Zero(method_->message(), graph.nodes());
 }
 
-void Contender::begin(const World& world, const Course& shared) {
+void Contender::begin(const Tick& tick, bool attacked, FaultTable& faults) {
+  const World& world = tick.world;
+  const Course& shared = tick.shared;
   if (side_ != Side::shared) {
     course_.truth = shared.truth;
     if (world.continuous() != nullptr && side_ != Side::recorded) course_.begin_flow(world);
@@ -37,6 +40,9 @@ void Contender::begin(const World& world, const Course& shared) {
   }
   const Course& seen = course(shared);
   if (ContinuousMethod* method = method_->continuous()) flow_.begin(seen.received, seen.input, *method);
+  if (method_->fusion() == nullptr) return;
+  exchange(tick, attacked);
+  method_->update(seen.received, inbox_, faults);
 }
 
 void Contender::tick(const Tick& tick, bool attacked, const SensorEffects& none, FaultTable& faults) {
@@ -96,6 +102,7 @@ void Contender::sense(const Tick& tick, bool attacked, const SensorEffects& effe
 void Contender::exchange(const Tick& tick, bool attacked) {
   const Graph& graph = tick.graph;
   for (int node = 0; node < graph.nodes(); ++node) method_->send(node, outbox_.col(node));
+  if (protection_) protection_->encode({.k = tick.k, .steps = {}, .gains = {}, .P = {}, .nominal = {}}, outbox_);
   for (std::size_t l = 0; l < graph.links().size(); ++l) {
     Delivery& delivery = inbox_[l];
     const int place = tick.base[l];

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/methods/method.hpp"
+#include "engine/methods/privacy/protection.hpp"
 #include "engine/run/course.hpp"
 #include "engine/run/fault_table.hpp"
 #include "engine/run/lane_flow.hpp"
@@ -35,14 +35,15 @@ class Contender {
     recorded,  ///< its plant, inputs and readings come from a trace, through course()
   };
 
-  /// monitor: the estimator hears what was sent, only the detector what arrived.
-  Contender(std::unique_ptr<Method> method, const World& world, const Graph& graph, Side side, bool monitor,
-            std::optional<std::int64_t> last);
+  /// monitor: the estimator hears what was sent, only the detector what arrived. protection: of its links; null: none,
+  /// or the method's own.
+  Contender(std::unique_ptr<Method> method, std::unique_ptr<privacy::Protection> protection, const World& world,
+            const Graph& graph, Side side, bool monitor, std::optional<std::int64_t> last);
   Contender(const Contender& other);
   Contender(Contender&&) noexcept = default;
 
-  /// Tick 0: where it starts from, and its first input.
-  void begin(const World& world, const Course& shared);
+  /// Tick 0: where it starts from, its first input, and what is said to a fusion centre.
+  void begin(const Tick& tick, bool attacked, FaultTable& faults);
   /// Steps 1 to 6 of a tick; `attacked` false: the adversary does not touch it.
   /// `none`: effects that do nothing. Ends early where the method stops.
   void tick(const Tick& tick, bool attacked, const SensorEffects& none, FaultTable& faults);
@@ -51,6 +52,8 @@ class Contender {
   Method& method() { return *method_; }
   const Method& method() const { return *method_; }
   Side side() const { return side_; }
+  /// What the nodes sent in the newest tick, message size x nodes.
+  const Eigen::MatrixXd& sent_messages() const { return outbox_; }
   Course& course() { return course_; }
   /// The course it sees.
   const Course& course(const Course& shared) const { return side_ == Side::shared ? shared : course_; }
@@ -63,6 +66,7 @@ class Contender {
   void flow(const Tick& tick, bool attacked, const Course& seen, const Readings& heard, FaultReport& faults);
 
   std::unique_ptr<Method> method_;
+  std::unique_ptr<privacy::Protection> protection_;
   Side side_;
   bool monitor_;
   Course course_;

@@ -1,38 +1,10 @@
 #include "engine/run/lane.hpp"
 
+#include "engine/run/lane_scope.hpp"
 #include "engine/run/sensor_signals.hpp"
 
 namespace vigil {
 namespace {
-
-/// Puts a method's own signals under the lane's name.
-class LaneScope final : public SignalScope {
- public:
-  LaneScope(std::string lane, const std::vector<std::string>& outputs, Catalogue& catalogue)
-      : lane_(std::move(lane)), outputs_(outputs), catalogue_(catalogue) {}
-
-  int add(int output, const std::string& name, const std::string& unit, SignalKind kind) override {
-    return add(output, name, Signal{.unit = unit, .kind = kind});
-  }
-
-  int add_category(int output, const std::string& name, const std::vector<std::string>& words) override {
-    Signal signal{.kind = SignalKind::category};
-    for (const std::string& word : words) signal.labels.emplace_back(static_cast<int>(signal.labels.size()), word);
-    return add(output, name, std::move(signal));
-  }
-
- private:
-  int add(int output, const std::string& name, Signal signal) {
-    signal.lane = lane_;
-    if (output >= 0) signal.node = outputs_[static_cast<std::size_t>(output)];
-    signal.name = "lane." + lane_ + "." + (signal.node.empty() ? "" : signal.node + ".") + name;
-    return catalogue_.add(std::move(signal));
-  }
-
-  std::string lane_;
-  const std::vector<std::string>& outputs_;
-  Catalogue& catalogue_;
-};
 
 /// The states that each output estimates: all, where the method does not say.
 std::vector<std::vector<int>> components_of(const Method& method, const Plant& plant) {
@@ -49,9 +21,11 @@ std::string square_unit(const std::string& unit) { return unit.empty() ? "" : un
 
 }  // namespace
 
-Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, const World& world, const Graph& graph)
+Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, std::unique_ptr<privacy::Protection> protection,
+           const World& world, const Graph& graph)
     : options_(std::move(options)),
-      contender_(std::move(method), world, graph, options_.side, options_.monitor, options_.last),
+      contender_(std::move(method), std::move(protection), world, graph, options_.side, options_.monitor,
+                 options_.last),
       outputs_(contender_.method().outputs()),
       components_(components_of(contender_.method(), *world.plant)),
       score_(*world.plant, outputs_, options_.rules, components_),
@@ -70,6 +44,10 @@ Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, const World& wor
   if (mine.continuous() != nullptr && world.continuous() != nullptr) {
     ports_ = world.continuous()->ports();
     input_score_ = InputScore(components_, ports_, options_.rules.window);
+  }
+  if (const FusionMethod* fusion = mine.fusion()) {
+    fusion_side_.emplace(*fusion, options_.id, outputs_, *world.plant, options_.last);
+    overheard_.assign(static_cast<std::size_t>(graph.nodes()), 0);
   }
   const bool simulated = options_.side == Contender::Side::closed || options_.side == Contender::Side::marked;
   if (!options_.spared && simulated) twin_.emplace(contender_);
@@ -93,6 +71,8 @@ Lane::Lane(const Lane& other)
       twin_score_(other.twin_score_),
       detection_(other.detection_),
       input_score_(other.input_score_),
+      fusion_side_(other.fusion_side_),
+      overheard_(other.overheard_),
       periods_(other.periods_),
       ports_(other.ports_),
       slots_(other.slots_),
@@ -149,6 +129,7 @@ void Lane::declare(const World& world, const std::vector<std::string>& nodes, Ca
     }
     slots_.push_back(slots);
   }
+  if (fusion_side_) fusion_side_->declare(*world.plant, catalogue);
   method().declare(scope);
 }
 
@@ -171,9 +152,22 @@ void Lane::declare_course(const World& world, const std::vector<std::string>& no
   sensor_slot_ = declare_sensors("lane." + id() + ".", id(), nodes, world, catalogue);
 }
 
-void Lane::begin(const World& world, const Course& shared) {
-  contender_.begin(world, shared);
-  if (twin_) twin_->begin(world, shared);
+void Lane::begin(const Tick& tick) {
+  faults_.begin_tick(tick.k);
+  contender_.begin(tick, !options_.spared, faults_);
+  twin_faults_.begin_tick(tick.k);
+  if (twin_) twin_->begin(tick, false, twin_faults_);
+  listen(tick);
+}
+
+/// Those who overhear the lane's messages to its fusion centre. A lane that is spared is not overheard.
+void Lane::listen(const Tick& tick) {
+  if (!fusion_side_ || stopped()) return;
+  for (std::size_t l = 0; l < overheard_.size(); ++l) {
+    const auto place = static_cast<std::size_t>(tick.base[l]);
+    overheard_[l] = options_.spared ? 0 : tick.links.overheard[place];
+  }
+  fusion_side_->listen(*method().fusion(), contender_.sent_messages(), overheard_);
 }
 
 const SensorEffects& Lane::effects(const Tick& tick) const {
@@ -189,7 +183,9 @@ void Lane::tick(const Tick& tick) {
     twin_faults_.begin_tick(tick.k);
     twin_->tick(tick, false, no_effects_, twin_faults_);
   }
-  if (!stopped()) judge(tick);
+  if (stopped()) return;
+  listen(tick);
+  judge(tick);
 }
 
 /// Step 7, apart from the errors that are signals, too.
@@ -244,6 +240,7 @@ void Lane::append_metrics(std::vector<MetricValue>& metrics) const {
   score_.append_metrics(id(), metrics);
   attack_score_.append_metrics(id(), outputs_, metrics);
   input_score_.append_metrics(id(), outputs_, metrics);
+  if (fusion_side_) fusion_side_->append_metrics(metrics);
   const bool alone = outputs_.size() == 1;
   for (std::size_t o = 0; o < detection_.size(); ++o)
     detection_[o].append_metrics(id(), alone ? "" : outputs_[o], twin_.has_value(), metrics);

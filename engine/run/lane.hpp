@@ -16,6 +16,7 @@
 #include "engine/metrics/state_score.hpp"
 #include "engine/run/contender.hpp"
 #include "engine/run/fault_table.hpp"
+#include "engine/run/fusion_side.hpp"
 
 namespace vigil {
 
@@ -32,13 +33,15 @@ struct LaneOptions {
 
 class Lane {
  public:
-  Lane(LaneOptions options, std::unique_ptr<Method> method, const World& world, const Graph& graph);
+  /// protection: see Contender.
+  Lane(LaneOptions options, std::unique_ptr<Method> method, std::unique_ptr<privacy::Protection> protection,
+       const World& world, const Graph& graph);
   Lane(const Lane& other);
   Lane(Lane&&) noexcept = default;
 
   void declare(const World& world, const std::vector<std::string>& nodes, Catalogue& catalogue);
   /// Tick 0.
-  void begin(const World& world, const Course& shared);
+  void begin(const Tick& tick);
   /// Steps 1 to 7 of a tick.
   void tick(const Tick& tick);
   /// Scores against the truth and writes the lane's signals (NaN once it has stopped). `attacks`: what really happened
@@ -64,6 +67,8 @@ class Lane {
   const FaultTable& faults() const { return faults_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
   const LaneScore& score() const { return score_; }
+  /// Null: it has no fusion centre.
+  const FusionSide* fusion_side() const { return fusion_side_ ? &*fusion_side_ : nullptr; }
   /// Keeps errors and bounds of ticks 1 to `ticks` for a campaign's bound ratio; room for them is made here, none in a
   /// tick.
   void record_bounds(std::int64_t ticks);
@@ -86,6 +91,7 @@ class Lane {
   void publish_detection(int output, std::span<double> values) const;
   void publish_unknown(int output, std::span<double> values) const;
   void publish_spread(const Plant& plant, std::span<double> values) const;
+  void listen(const Tick& tick);
   void judge(const Tick& tick);
   void judge_detection(const Tick& tick);
 
@@ -101,6 +107,8 @@ class Lane {
   StateScore state_score_, twin_score_;
   std::vector<DetectionScore> detection_;
   InputScore input_score_;
+  std::optional<FusionSide> fusion_side_;
+  std::vector<char> overheard_;  ///< of every node's link to the centre
   std::vector<double> periods_;
   std::vector<DrivePorts> ports_;  ///< by output; empty: not in continuous time
   std::vector<Slots> slots_;

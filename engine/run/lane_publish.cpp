@@ -16,6 +16,7 @@ void Lane::publish(const Tick& tick, std::span<double> values) {
   values[static_cast<std::size_t>(rmse_slot_)] = std::sqrt(square / static_cast<double>(outputs_.size()));
   if (spread_slot_ >= 0) publish_spread(plant, values);
   if (options_.side != Contender::Side::shared) publish_course(tick, values);
+  if (fusion_side_) fusion_side_->publish(tick.k, *method().fusion(), method(), truth, values);
   method().publish(values);
 }
 

@@ -99,6 +99,7 @@ Json Run::design() const {
       for (const auto& sensor : state_->world.sensors) channels += sensor->size();
     }
     mine.update(lane.score().bounds(channels));
+    if (const FusionSide* side = lane.fusion_side()) mine.update(side->traces());
     design[lane.id()] = std::move(mine);
   }
   return design;

@@ -6,10 +6,12 @@
 
 #include "engine/linalg/covariance.hpp"
 #include "engine/linalg/small.hpp"
+#include "engine/methods/fusion_method.hpp"
 #include "engine/run/design.hpp"
 #include "engine/run/recorded_lane.hpp"
 #include "engine/run/setup.hpp"
 #include "engine/run/state.hpp"
+#include "engine/run/stationary_start.hpp"
 
 namespace vigil {
 namespace {
@@ -60,9 +62,33 @@ ScoreRules read_rules(const Json& metrics, const Plant& plant) {
   return rules;
 }
 
+/// Null where the lane has none.
+std::unique_ptr<privacy::Protection> make_protection(const Json& lane, const std::string& pointer,
+                                                     const Knowledge& knowledge) {
+  const Json given = lane.value("protection", Json::object());
+  const std::string type = given.value("type", "none");
+  if (type == "none") return nullptr;
+  const auto& entry = entry_of<ProtectionMake>(type, pointer + "/protection/type");
+  return under(pointer + "/protection/params", [&] { return entry.make(Params(given["params"]), knowledge); });
+}
+
+/// Throws InputError where there is nothing to protect, or no centre that could make sense of what is sent.
+void check_protected(const privacy::Protection& protection, const Method& method, const Json& lane,
+                     const std::string& pointer) {
+  const std::string type = lane["protection"]["type"], name = lane["method"], at = pointer + "/protection/type";
+  if (method.message() == 0)
+    throw InputError(at, fmt::format("\"{}\" has nothing to protect: \"{}\" sends no messages", type, name), "none");
+  if (protection.needs_centre() && method.fusion() == nullptr)
+    throw InputError(
+        at,
+        fmt::format("\"{}\" needs a fusion centre that knows it; \"{}\" has none, expected gaussian_noise", type, name),
+        "gaussian_noise");
+}
+
 }  // namespace
 
-Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::MatrixXd& P0) {
+Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, Knowledge& knowledge) {
+  const Eigen::MatrixXd& P0 = knowledge.P0;
   const int n = world.plant->states();
   Eigen::VectorXd& truth = shared.truth;
   const Json given_truth = initial.value("truth", Json(nullptr));
@@ -76,6 +102,13 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, const Eigen::
   if (!centre.allFinite() && !estimates.is_object()) {
     throw InputError("/initial/truth",
                      "the trace has no truth in its first row, so initial.truth or initial.estimates must be given");
+  }
+  knowledge.prior = centre.allFinite() ? centre : Eigen::VectorXd::Zero(n);
+  if (knowledge.stationary) {
+    const bool drawn = initial.value("x0_random", false);
+    const StationaryStart start(knowledge, drawn);
+    if (drawn && !recorded) truth += start.deviation(n);
+    return truth.replicate(1, world.sensors.size()) - start.errors(n);
   }
   const Eigen::MatrixXd root = symmetric_root(P0);
   if (initial.value("x0_random", false) && !trace) {
@@ -125,7 +158,9 @@ void Run::State::set_lanes(const Json& document) {
   knowledge.Q = read_covariance(noise_document.at("Q"), n, "/noise/Q", Definiteness::semidefinite);
   knowledge.P0 = read_covariance(noise_document.at("P0"), n, "/noise/P0", Definiteness::semidefinite);
   knowledge.Mw = read_covariance(noise_document.value("Mw", Json(0)), n, "/noise/Mw", Definiteness::semidefinite);
-  knowledge.estimates = initial_estimates(document.value("initial", Json::object()), knowledge.P0);
+  const Json initial = document.value("initial", Json::object());
+  knowledge.stationary = initial.value("estimates", Json(nullptr)) == "stationary";
+  knowledge.estimates = initial_estimates(initial, knowledge);
   const std::vector<LinkRates> published = adversary.rates(graph);
   const ScoreRules rules = read_rules(document.value("metrics", Json::object()), *world.plant);
   for (const auto& [id, lane] : document["lanes"].items()) {
@@ -147,9 +182,13 @@ void Run::State::set_lanes(const Json& document) {
       throw InputError(pointer + "/method", fmt::format("\"{}\" runs on plants of at most {} states; this one has {}",
                                                         options.method_id, kMaxSmall, n));
     }
+    auto protection = make_protection(lane, pointer, knowledge);
+    knowledge.protection = protection ? protection->clone() : nullptr;
     auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
+    if (protection) check_protected(*protection, *made, lane, pointer);
+    if (made->fusion() != nullptr) protection.reset();  // the method encodes and decodes by itself
     options.side = side_of(id, *made, options.spared);
-    lanes.emplace_back(std::move(options), std::move(made), world, graph);
+    lanes.emplace_back(std::move(options), std::move(made), std::move(protection), world, graph);
   }
   if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");
   for (const Lane& lane : lanes) {
@@ -166,7 +205,7 @@ void Run::State::set_recorded_lanes() {
     options.spared = true;
     options.params = Json::object();
     options.rules = rules;
-    lanes.emplace_back(std::move(options), std::move(recorded.method), world, graph);
+    lanes.emplace_back(std::move(options), std::move(recorded.method), nullptr, world, graph);
   }
 }
 

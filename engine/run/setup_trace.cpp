@@ -69,6 +69,7 @@ void Run::State::find_columns() {
   for (const Link& link : base.links()) {
     const std::string name = "link." + link_name(link, nodes);
     columns.link_state.push_back(find(name + ".state"));
+    columns.overheard.push_back(find(name + ".overheard"));
     if (columns.link_state.back() >= 0)
       check_states(*trace, columns.link_state.back(), static_cast<int>(LinkState::replay));
     columns.injected.emplace_back();

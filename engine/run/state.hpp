@@ -27,6 +27,7 @@ struct TraceColumns {
   CourseColumns shared;
   std::vector<CourseColumns> lanes;        ///< by lane; of the recorded side only
   std::vector<int> link_state;             ///< base link
+  std::vector<int> overheard;              ///< base link
   std::vector<std::vector<int>> injected;  ///< base link, component
 };
 
@@ -34,7 +35,7 @@ struct TraceColumns {
 struct WorldSlots {
   int truth = 0, input = 0;
   int sensor = 0;           ///< of all nodes: see sensor_signals.hpp
-  std::vector<int> link;    ///< state, then injected components, then strength; one a base link
+  std::vector<int> link;    ///< state, then injected components, strength, overheard; one a base link
   std::vector<int> drives;  ///< by the plant's ports, -1 for known inputs; empty: not in continuous time
 };
 
@@ -90,13 +91,14 @@ struct Run::State {
   void declare_signals();
   void declare_drives();
   void check_trace(const Json& document);
-  Eigen::MatrixXd initial_estimates(const Json& document, const Eigen::MatrixXd& P0);
+  Eigen::MatrixXd initial_estimates(const Json& initial, Knowledge& knowledge);
 
   void set_nodes(const Json& document);
   void set_noise(const Json& document);
   CourseColumns course_columns(const std::string& prefix) const;
   Contender::Side side_of(const std::string& lane, const Method& method, bool spared) const;
 
+  void begin(Sink& sink);
   void begin_flow();
   void simulate(Sink& sink);
   void replay(Sink& sink);
@@ -104,6 +106,7 @@ struct Run::State {
   void read_tampering(const CourseColumns& from, Course& course, SensorEffects& effects) const;
   void override_links();
   void publish_world();
+  void publish_links();
 
   void set_params(const Json& params);
   void retune_lane(const ParamGroup& group);

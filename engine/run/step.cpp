@@ -13,9 +13,7 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 void Run::State::step(Sink& sink) {
   ++k;
   if (k == 0) {
-    if (world.continuous() != nullptr) begin_flow();
-    if (world.controller && !trace) world.controller->input(0, shared.truth.data(), shared.upcoming);
-    for (Lane& lane : lanes) lane.begin(world, shared);
+    begin(sink);
   } else {
     while (!pending.empty() && pending.front().k <= k) {
       const Command command = pending.front();
@@ -28,9 +26,7 @@ void Run::State::step(Sink& sink) {
     trace ? replay(sink) : simulate(sink);
   }
   const Tick tick{k, trace != nullptr, world, shared, graph, base_of, effects, sensor_effects};
-  for (Lane& lane : lanes) {
-    if (k > 0) lane.tick(tick);
-  }
+  for (Lane& lane : lanes) k > 0 ? lane.tick(tick) : lane.begin(tick);
   std::fill(frame.values.begin(), frame.values.end(), kMissing);
   frame.k = k;
   frame.t = static_cast<double>(k) * dt;
@@ -42,6 +38,18 @@ void Run::State::step(Sink& sink) {
   // A plant may overflow (a document can ask for 1e300): a frame says that as missing, never as infinity.
   for (double& value : frame.values) value = std::isfinite(value) ? value : kMissing;
   sink.frame(frame);
+}
+
+/// Tick 0 has no step of the plant; to a fusion centre sensors speak already, and somebody may listen.
+void Run::State::begin(Sink& sink) {
+  if (world.continuous() != nullptr) begin_flow();
+  if (world.controller && !trace) world.controller->input(0, shared.truth.data(), shared.upcoming);
+  if (base.centre() < 0) return;
+  effects.clear();
+  sensor_effects.clear();
+  adversary.act(0, effects, sensor_effects, world.actuators, sink);
+  sensor_effects.clear();
+  if (trace) override_links();
 }
 
 /// Tick 0 of continuous time has readings: observers start from them.
@@ -134,6 +142,7 @@ void Run::State::read_tampering(const CourseColumns& from, Course& course, Senso
 void Run::State::override_links() {
   for (std::size_t l = 0; l < columns.link_state.size(); ++l) {
     const auto link = static_cast<Eigen::Index>(l);
+    if (columns.overheard[l] >= 0) effects.overheard[l] = trace->at(k, columns.overheard[l]) > 0 ? 1 : 0;
     bool described = columns.link_state[l] >= 0;
     for (const int column : columns.injected[l]) described = described || column >= 0;
     if (!described) continue;
@@ -152,6 +161,7 @@ void Run::State::override_links() {
 void Run::State::publish_world() {
   auto* values = frame.values.data();
   for (Eigen::Index c = 0; c < shared.truth.size(); ++c) values[slots.truth + c] = shared.truth[c];
+  if (k > 0 || base.centre() >= 0) publish_links();
   if (k == 0 && world.continuous() == nullptr) return;
   for (Eigen::Index c = 0; c < shared.input.size(); ++c) values[slots.input + c] = shared.input[c];
   publish_sensors(shared, sensor_effects, values + slots.sensor);
@@ -159,6 +169,10 @@ void Run::State::publish_world() {
   for (std::size_t d = 0; d < slots.drives.size(); ++d) {
     if (slots.drives[d] >= 0) values[slots.drives[d]] = shared.drives[static_cast<Eigen::Index>(d)];
   }
+}
+
+void Run::State::publish_links() {
+  auto* values = frame.values.data();
   for (std::size_t l = 0; l < slots.link.size(); ++l) {
     const int slot = slots.link[l];
     const auto link = static_cast<Eigen::Index>(l);
@@ -166,6 +180,7 @@ void Run::State::publish_world() {
     const Eigen::Index n = effects.injected.rows();
     for (Eigen::Index c = 0; c < n; ++c) values[slot + 1 + c] = effects.injected(c, link);
     values[slot + 1 + n] = effects.strength[link];
+    values[slot + 2 + n] = effects.overheard[l];
   }
 }
 

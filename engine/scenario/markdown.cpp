@@ -2,7 +2,7 @@
 
 #include "engine/adversary/attack.hpp"
 #include "engine/core/expectation.hpp"
-#include "engine/methods/method.hpp"
+#include "engine/methods/privacy/protection.hpp"
 #include "engine/world/controller.hpp"
 #include "engine/world/plant.hpp"
 #include "engine/world/sensor.hpp"
@@ -62,6 +62,7 @@ std::string parameters_markdown() {
   text += kind<AttackMake>("Attacks", "`adversary.<id>.type` and `.params`; the same in an attack started by hand.");
   text += kind<ControllerMake>("Controllers", "`controller.type` and `.params`; `none` has none.");
   text += kind<MethodMake>("Methods", "`lanes.<id>.method` and `.params`.");
+  text += kind<ProtectionMake>("Protections", "`lanes.<id>.protection.type` and `.params`; `none` has none.");
   text.pop_back();
   return text;
 }

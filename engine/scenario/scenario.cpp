@@ -32,7 +32,7 @@ Json complete(const Json& given, std::vector<Problem>& problems) {
   Json result = {{"vigil", 1}, {"id", section::id(given, problems)}};
   result["title"] = section::title(given, result, problems);
   result["source"] = root.text("source", "");
-  result["family"] = root.choice("family", {"consensus", "sparse", "replay", "observer"}, "consensus");
+  result["family"] = root.choice("family", {"consensus", "sparse", "replay", "observer", "privacy"}, "consensus");
   result["profile"] = root.text("profile", "");
   result["time"] = section::time(given, problems);
   result["plant"] = section::plant(given, problems);
@@ -51,6 +51,26 @@ Json complete(const Json& given, std::vector<Problem>& problems) {
   return result;
 }
 
+struct Preset {
+  const char* id;
+  Json (*make)();
+};
+constexpr Preset kPresets[] = {{"consensus", presets::consensus},
+                               {"consensus-compass", presets::consensus_compass},
+                               {"consensus-literal", presets::consensus_literal},
+                               {"mrclam", presets::mrclam},
+                               {"sparse", presets::sparse},
+                               {"replay-nongaussian", presets::replay_nongaussian},
+                               {"replay-ubb", presets::replay_ubb},
+                               {"replay-mixed", presets::replay_mixed},
+                               {"observer-pair", presets::observer_pair},
+                               {"observer-areas", presets::observer_areas},
+                               {"observer-single", presets::observer_single},
+                               {"privacy-robot-linear", presets::privacy_robot_linear},
+                               {"privacy-robot-nonlinear", presets::privacy_robot_nonlinear},
+                               {"privacy-turn", presets::privacy_turn},
+                               {"privacy-engine", presets::privacy_engine}};
+
 }  // namespace
 
 Scenario Scenario::from_json(const Json& document) {
@@ -66,24 +86,18 @@ Scenario Scenario::from_json(const Json& document) {
 }
 
 const std::vector<std::string>& Scenario::preset_ids() {
-  static const std::vector<std::string> ids{"consensus",     "consensus-compass",  "consensus-literal", "mrclam",
-                                            "sparse",        "replay-nongaussian", "replay-ubb",        "replay-mixed",
-                                            "observer-pair", "observer-areas",     "observer-single"};
+  static const std::vector<std::string> ids = [] {
+    std::vector<std::string> found;
+    for (const Preset& preset : kPresets) found.emplace_back(preset.id);
+    return found;
+  }();
   return ids;
 }
 
 Scenario Scenario::preset(std::string_view id) {
-  if (id == "consensus") return from_json(presets::consensus());
-  if (id == "consensus-compass") return from_json(presets::consensus_compass());
-  if (id == "consensus-literal") return from_json(presets::consensus_literal());
-  if (id == "mrclam") return from_json(presets::mrclam());
-  if (id == "sparse") return from_json(presets::sparse());
-  if (id == "replay-nongaussian") return from_json(presets::replay_nongaussian());
-  if (id == "replay-ubb") return from_json(presets::replay_ubb());
-  if (id == "replay-mixed") return from_json(presets::replay_mixed());
-  if (id == "observer-pair") return from_json(presets::observer_pair());
-  if (id == "observer-areas") return from_json(presets::observer_areas());
-  if (id == "observer-single") return from_json(presets::observer_single());
+  for (const Preset& preset : kPresets) {
+    if (id == preset.id) return from_json(preset.make());
+  }
   const std::string near = nearest(id, preset_ids());
   const std::string hint = near.empty() ? "" : "; did you mean " + in_quotes(near) + "?";
   throw InputError("", in_quotes(id) + " is no preset; expected one of " + listed(preset_ids()) + hint,

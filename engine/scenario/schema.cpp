@@ -1,7 +1,7 @@
 /// The JSON Schema of scenario documents, made from the declared parameters: what forms, editors and other programs
 /// read.
 #include "engine/adversary/attack.hpp"
-#include "engine/methods/method.hpp"
+#include "engine/methods/privacy/protection.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/scenario/schema_leaf.hpp"
 #include "engine/scenario/sections.hpp"
@@ -138,12 +138,13 @@ Json initial(const Json& document) {
   for (const auto& [id, member] : document["nodes"].items()) nodes[id] = state;
   const Json none = {{"type", "null"}};
   const Json truth = {{"anyOf", Json::array({state, none})}};
-  const Json estimates = {{"anyOf", Json::array({object(std::move(nodes)), {{"const", "truth"}}, none})}};
+  const Json estimates = {{"anyOf", Json::array({object(std::move(nodes)), choice({"truth", "stationary"}), none})}};
   return leaf(
       object({{"truth", leaf(truth, {"True initial state; none: drawn", "真实初始状态；无：随机抽取"}, nullptr)},
               {"estimates", leaf(estimates,
-                                 {"Initial estimates by node, or \"truth\"; none: drawn",
-                                  "各节点初始估计，或 \"truth\"；无：随机抽取"},
+                                 {"Initial estimates by node, \"truth\", or \"stationary\": errors as after running "
+                                  "for ever; none: drawn",
+                                  "各节点初始估计，或 \"truth\"，或 \"stationary\"（误差取平稳分布）；无：随机抽取"},
                                  nullptr)},
               {"x0_random",
                leaf(boolean(), {"The truth is drawn about its initial state", "真实初始状态在给定值附近随机抽取"},
@@ -173,13 +174,24 @@ Json attack() {
   return result;
 }
 
+Json protection() {
+  std::vector<std::string> kinds = Registry<ProtectionMake>::ids();
+  kinds.insert(kinds.begin(), "none");
+  Json result = object({{"type", leaf(choice(kinds), {"Protection", "隐私保护"}, "none")}, {"params", params_slot()}});
+  for (const auto& entry : Registry<ProtectionMake>::all())
+    result["properties"]["type"]["x-labels"][entry.id] = {{"en", entry.title.en}, {"zh", entry.title.zh}};
+  result["allOf"] = branches<ProtectionMake>("protection", "type");
+  return leaf(std::move(result), {"What hides the lane's messages", "报文的隐私保护机制"});
+}
+
 Json lane() {
   Json result = object(
       {{"method", kinds<MethodMake>({"Method", "方法"})},
        {"path", leaf(choice({"loop", "monitor"}), {"Who listens to the sensor channel", "谁接收传感器信道"}, "loop")},
        {"adversary", leaf(boolean(), {"Meets the adversary", "受攻击者影响"}, true)},
        {"enabled", leaf(boolean(), {"Runs", "启用"}, true)},
-       {"params", params_slot()}},
+       {"params", params_slot()},
+       {"protection", protection()}},
       Json::array({"method"}));
   result["allOf"] = branches<MethodMake>("method", "method");
   return result;
@@ -236,7 +248,8 @@ Json properties(const Json& document) {
           {"id", leaf(id, {"Id", "标识"})},
           {"title", title()},
           {"source", leaf(text(), {"Where it comes from", "来源"}, "")},
-          {"family", leaf(choice({"consensus", "sparse", "replay", "observer"}), {"Family", "类别"}, "consensus")},
+          {"family",
+           leaf(choice({"consensus", "sparse", "replay", "observer", "privacy"}), {"Family", "类别"}, "consensus")},
           {"profile", leaf(text(), {"Profile", "参数组"}, "")},
           {"time", time()},
           {"plant", typed<PlantMake>("plant", {"Plant", "被控对象"})},
@@ -266,6 +279,7 @@ Json Scenario::schema() const {
   define<ControllerMake>("controller", definitions);
   define<AttackMake>("attack", definitions);
   define<MethodMake>("method", definitions);
+  define<ProtectionMake>("protection", definitions);
   define<observer::SignalMake>("signal", definitions);
   result["$defs"] = std::move(definitions);
   return result;

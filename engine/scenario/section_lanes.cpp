@@ -1,6 +1,6 @@
 /// The contenders.
 #include "engine/core/describe.hpp"
-#include "engine/methods/method.hpp"
+#include "engine/methods/privacy/protection.hpp"
 #include "engine/scenario/fields.hpp"
 #include "engine/scenario/sections.hpp"
 #include "engine/scenario/typed.hpp"
@@ -8,11 +8,25 @@
 namespace vigil::section {
 namespace {
 
+/// {"type":"none"} or a registered protection with its params.
+Json protection(const Json& given, const std::string& pointer, std::vector<Problem>& problems) {
+  Json result = {{"type", "none"}};
+  Fields fields(given, pointer, problems);
+  if (!given.is_object()) return result;
+  if (given.value("type", Json("none")) == "none") {
+    fields.known({"type"});
+    return result;
+  }
+  fields.known({"type", "params"});
+  complete_typed<ProtectionMake>(fields, "type", "protection", result, problems);
+  return result;
+}
+
 Json lane(const Json& given, const std::string& pointer, std::vector<Problem>& problems) {
   Json result = Json::object();
   Fields fields(given, pointer, problems);
   if (!given.is_object()) return result;
-  fields.known({"method", "path", "adversary", "enabled", "params"});
+  fields.known({"method", "path", "adversary", "enabled", "params", "protection"});
   Json typed = Json::object();
   complete_typed<MethodMake>(fields, "method", "method", typed, problems);
   result["method"] = typed.value("method", Json(""));
@@ -20,6 +34,8 @@ Json lane(const Json& given, const std::string& pointer, std::vector<Problem>& p
   result["adversary"] = fields.boolean("adversary", true);
   result["enabled"] = fields.boolean("enabled", true);
   result["params"] = typed.value("params", Json::object());
+  if (fields.has("protection"))
+    result["protection"] = protection(fields.at("protection"), fields.pointer("protection"), problems);
   return result;
 }
 

@@ -76,9 +76,9 @@ std::string state_words(int states) {
 
 Json estimates(Fields& fields, const Json& nodes, int states, std::vector<Problem>& problems) {
   const Json& given = fields.at("estimates");
-  if (given.is_null() || given == "truth") return given;
+  if (given.is_null() || given == "truth" || given == "stationary") return given;
   if (!given.is_object()) {
-    fields.wrong("estimates", "{\"<node>\":[..]}, \"truth\" or null");
+    fields.wrong("estimates", "{\"<node>\":[..]}, \"truth\", \"stationary\" or null");
     return nullptr;
   }
   std::vector<std::string> ids;

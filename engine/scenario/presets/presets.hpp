@@ -23,5 +23,11 @@ Json replay_mixed();
 Json observer_pair();
 Json observer_areas();
 Json observer_single();
+/// Seed 004: contamination on a linear and a nonlinear robot, differential privacy on a turning target, and an engine
+/// with two noises in a row, contamination and both secrecy codes.
+Json privacy_robot_linear();
+Json privacy_robot_nonlinear();
+Json privacy_turn();
+Json privacy_engine();
 
 }  // namespace vigil::presets
