@@ -13,9 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMostSets = 20000;
-constexpr double kTie = 1e-9;               // relative
-constexpr int kHalfway = 200, kLast = 400;  // steps of the bounded check
-constexpr double kGrowth = 1.02;            // what its trace may grow by between them
+constexpr double kTie = 1e-9;  // relative
 
 /// The first set of the largest score, scores being zero or more.
 template <class Score>
@@ -34,46 +32,6 @@ const ComponentSet& best(const std::vector<ComponentSet>& sets, Score score) {
 double spectral_norm(const MatrixXd& M) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(M.transpose() * M, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(eigen.eigenvalues()[M.cols() - 1], 0.0));
-}
-
-struct LocalHistory {
-  MatrixXd start;
-  std::vector<MatrixXd> P;
-  std::vector<std::vector<LocalGains>> gains;
-};
-
-/// Nothing at all where the filters cannot start.
-LocalHistory local_history(const FusionModel& model, const std::vector<LocalStep>& steps) {
-  LocalHistory history;
-  if (model.P0.size() == 0) {
-    const auto filters = stationary_filters(model);
-    if (!filters) return history;
-    history.start = filters->P;
-  } else {
-    history.start = common_start(model.P0, model.count());
-  }
-  MatrixXd P = history.start;
-  for (int t = 1; t <= kLast; ++t) {
-    auto gains = step_local(steps, model.noise(), P);
-    if (!gains) return {};
-    history.P.push_back(P);
-    history.gains.push_back(std::move(*gains));
-  }
-  return history;
-}
-
-bool bounded(const FusionModel& model, const std::vector<LocalStep>& steps, const LocalHistory& history,
-             const ComponentSet& set) {
-  const VectorXd h = kept(set, model.stacked());
-  Legitimate user =
-      model.P0.size() == 0 ? legitimate_from(history.start, model.states()) : legitimate_start(model.P0, model.count());
-  const MatrixXd Qb = model.noise();
-  double halfway = 0;
-  for (std::size_t t = 0; t < history.P.size(); ++t) {
-    step_legitimate(steps, history.gains[t], Qb, history.P[t], model.A, h, user);
-    if (t + 1 == kHalfway) halfway = user.P.trace();
-  }
-  return user.P.trace() <= kGrowth * halfway;
 }
 
 }  // namespace
@@ -119,17 +77,6 @@ const ComponentSet& choose_set(const std::vector<ComponentSet>& sets, Selection 
 const ComponentSet& choose_worst_known(const std::vector<ComponentSet>& sets, const MatrixXd& P) {
   const auto stacked = static_cast<int>(P.rows());
   return best(sets, [&](const ComponentSet& set) { return P.diagonal().dot(kept(set, stacked)); });
-}
-
-std::vector<ComponentSet> bounded_sets(const FusionModel& model, const std::vector<ComponentSet>& sets) {
-  const auto steps = local_steps(model);
-  const LocalHistory history = local_history(model, steps);
-  std::vector<ComponentSet> admissible;
-  if (history.P.empty()) return admissible;
-  for (const ComponentSet& set : sets) {
-    if (bounded(model, steps, history, set)) admissible.push_back(set);
-  }
-  return admissible;
 }
 
 }  // namespace vigil::privacy

@@ -74,8 +74,4 @@ const ComponentSet& choose_set(const std::vector<ComponentSet>& sets, Selection 
 /// The rule of the nonlinear plant, Theorem 2.2: keeps the components known worst; the same ties.
 const ComponentSet& choose_worst_known(const std::vector<ComponentSet>& sets, const Eigen::MatrixXd& P);
 
-/// Those sets which, used at all times, leave the legitimate user bounded: 400 steps, the trace then at most 1.02 of
-/// the one after 200. Empty where there is none.
-std::vector<ComponentSet> bounded_sets(const FusionModel& model, const std::vector<ComponentSet>& sets);
-
 }  // namespace vigil::privacy

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "engine/core/input_error.hpp"
+#include "engine/methods/privacy/bounded_sets.hpp"
 #include "engine/methods/privacy/contamination.hpp"
 #include "engine/methods/privacy/eavesdroppers.hpp"
 #include "engine/methods/privacy/null_space.hpp"
@@ -21,28 +23,6 @@ using Eigen::VectorXd;
 bool linear(const Knowledge& knowledge) {
   return knowledge.plant->linear() &&
          std::all_of(knowledge.sensors.begin(), knowledge.sensors.end(), [](const auto& s) { return s->linear(); });
-}
-
-bool same(const FusionModel& a, const FusionModel& b) {
-  const auto alike = [](const MatrixXd& x, const MatrixXd& y) {
-    return x.rows() == y.rows() && x.cols() == y.cols() && x == y;
-  };
-  return a.count() == b.count() && alike(a.A, b.A) && alike(a.Q, b.Q) && alike(a.P0, b.P0) &&
-         std::equal(a.sensors.begin(), a.sensors.end(), b.sensors.begin(),
-                    [&](const SensorModel& x, const SensorModel& y) { return alike(x.C, y.C) && alike(x.R, y.R); });
-}
-
-/// bounded_sets() of all sets of m components. The last answer is kept, since the runs of a campaign ask the same.
-const std::vector<ComponentSet>& admissible_sets(const FusionModel& model, int m) {
-  struct Answer {
-    FusionModel model;
-    int m = -1;
-    std::vector<ComponentSet> sets;
-  };
-  thread_local Answer last;
-  if (last.m != m || !same(last.model, model))
-    last = {model, m, bounded_sets(model, component_sets(model.stacked(), m))};
-  return last.sets;
 }
 
 class Contamination final : public Protection {
@@ -61,8 +41,8 @@ class Contamination final : public Protection {
         white_(n_ * count_) {
     sets_ = component_sets(n_ * count_, m_);
     if (!linear_ || !params.boolean("bounded_check")) return;
-    sets_ = admissible_sets(fusion_model(knowledge), m_);
-    if (sets_.empty())
+    check_ = bounded_check(fusion_model(knowledge));
+    if (std::none_of(sets_.begin(), sets_.end(), [this](const ComponentSet& set) { return bounded(check_, set); }))
       throw InputError("/m", fmt::format("m is {}, but whichever {} components are always contaminated, the legitimate "
                                          "user's error grows without bound; expected another m or bounded_check false",
                                          m_, m_));
@@ -138,6 +118,16 @@ class Contamination final : public Protection {
   }
 
  private:
+  /// The best of the sets that leave the user bounded. Only those that would be chosen are tried.
+  const ComponentSet& best_admissible(const PublicTick& tick) {
+    for (;;) {
+      const ComponentSet& best = choose_set(sets_, mode_, tick.nominal, tick.P, moment_.second());
+      if (!check_ || passed_.contains(best)) return best;
+      if (bounded(check_, best)) return *passed_.insert(best).first;
+      sets_.erase(std::find(sets_.begin(), sets_.end(), best));
+    }
+  }
+
   /// This tick's set, by covariances alone, and the noise's null space.
   void choose(const PublicTick& tick) {
     const ComponentSet& set =
@@ -159,7 +149,9 @@ class Contamination final : public Protection {
   double deviation_;
   Draws draws_;
   StateMoment moment_;
-  std::vector<ComponentSet> sets_;
+  std::vector<ComponentSet> sets_;  ///< without those that were found to leave the user unbounded
+  std::set<ComponentSet> passed_;
+  std::shared_ptr<const BoundedCheck> check_;  ///< null: every set is admissible
   VectorXd h_, white_, hidden_;
   MatrixXd Pi_;
   double trace_ = 0;                         ///< of the fusing eavesdropper's covariance

@@ -125,7 +125,7 @@ class FusionLane final : public Method, public FusionMethod {
   void fuse_locals() {
     aligned_ = bank_.means();
     for (Eigen::Index i = 1; i < aligned_.cols(); ++i) to_turn_of(bank_.means().col(0), periods_, aligned_.col(i));
-    optimal_ = tick_.nominal.W * aligned_.reshaped();
+    optimal_.noalias() = tick_.nominal.W * aligned_.reshaped();
   }
   void speak() {
     sent_ = bank_.means();

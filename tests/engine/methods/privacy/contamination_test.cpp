@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/input_error.hpp"
+#include "engine/methods/privacy/bounded_sets.hpp"
 #include "engine/methods/privacy/null_space.hpp"
 #include "engine/random/draws.hpp"
 
