@@ -119,7 +119,7 @@ DpFusion design_dp_fusion(const FusionModel& model, const DpSettings& settings) 
   DpFusion design;
   design.gamma = gamma_factor(settings.epsilon, settings.delta);
   auto filters = stationary_filters(model);
-  if (!filters) throw InputError("/", "a sensor's filter has no stationary law: the target is not detectable from it");
+  if (!filters) throw InputError("", "a sensor's filter has no stationary law: the target is not detectable from it");
   design.filters = std::move(*filters);
   design.nominal = fuse(design.filters.P, model.states());
   for (const MatrixXd& KC : visible_gains(model, design.filters.gains))
@@ -130,7 +130,8 @@ DpFusion design_dp_fusion(const FusionModel& model, const DpSettings& settings) 
   design.q_centre_enough = design.q_centre / (kappa * kappa);
   design.q_total = design.q_centre / kappa;
   const auto count = static_cast<std::size_t>(model.count());
-  spread_noise(design, settings.shares.empty() ? std::vector<double>(count, 1.0 / model.count()) : settings.shares);
+  const std::vector<double> alike(count, settings.at_centre ? 0 : 1.0 / model.count());
+  spread_noise(design, settings.at_centre || settings.shares.empty() ? alike : settings.shares);
   design.compensated = fuse(design.Pc, model.states());
   design.public_P = design.nominal.P;
   design.public_P.diagonal().array() += design.q_total;

@@ -17,6 +17,7 @@ struct DpSettings {
   int kappa = 10;                        ///< >= 1, fused estimates in a published mean
   Eigen::VectorXd H;                     ///< n entries 0 or 1: the components that may differ
   std::vector<double> shares;            ///< of the noise, one a sensor, >= 0, of sum 1; empty: all alike
+  bool at_centre = false;                ///< no sensor adds any, whatever the shares: the centre does
 };
 
 struct DpFusion {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,10 +91,7 @@ PrivacyLoss::PrivacyLoss(const MatrixXd& D, const MatrixXd& S, double bound) {
   weights_ = shift_ = Eigen::VectorXd::Zero(D.rows());
   if (!(size > 0)) return;
   if (factor.info() == Eigen::Success) {
-    const auto [direction, growth] = strongest(D.transpose() * factor.solve(D));
-    shift_ = bound * D * direction;
-    weights_ = factor.solve(shift_);
-    mu_ = bound * std::sqrt(growth);
+    take(D, factor.solve(D), bound);
     return;
   }
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(S);
@@ -108,6 +106,35 @@ PrivacyLoss::PrivacyLoss(const MatrixXd& D, const MatrixXd& S, double bound) {
   shift_ = bound * D * direction;
   weights_ = bound * eigen.eigenvectors() * (inverse.asDiagonal() * (turned * direction));
   if (!std::isinf(mu_)) mu_ = bound * std::sqrt(growth);
+}
+
+void PrivacyLoss::take(const MatrixXd& D, const MatrixXd& solved, double bound) {
+  const auto [direction, growth] = strongest(D.transpose() * solved);
+  shift_ = bound * D * direction;
+  weights_ = bound * solved * direction;
+  mu_ = bound * std::sqrt(growth);
+}
+
+PrivacyLoss PrivacyLoss::banded(const MatrixXd& D, const Eigen::SparseMatrix<double>& S, double bound) {
+  if (!(bound * spectral_norm(D) > 0)) return {D, S, bound};
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(S);
+  if (factor.info() != Eigen::Success) return {D, S, bound};
+  PrivacyLoss loss;
+  loss.take(D, factor.solve(D), bound);
+  return loss;
+}
+
+PrivacyLoss PrivacyLoss::white(const MatrixXd& D, const Eigen::VectorXd& variances, double bound) {
+  PrivacyLoss loss;
+  const double size = bound * spectral_norm(D);
+  loss.weights_ = loss.shift_ = Eigen::VectorXd::Zero(D.rows());
+  if (!(size > 0)) return loss;
+  const Eigen::VectorXd inverse = variances.unaryExpr([](double q) { return q > 0 ? 1 / q : 0.0; });
+  loss.take(D, inverse.asDiagonal() * D, bound);
+  for (Eigen::Index r = 0; r < D.rows(); ++r) {
+    if (inverse[r] == 0 && bound * D.row(r).norm() > kNoNoise * size) loss.mu_ = kInfinity;
+  }
+  return loss;
 }
 
 }  // namespace vigil::privacy

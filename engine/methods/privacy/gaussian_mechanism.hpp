@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 namespace vigil::privacy {
 
@@ -29,14 +30,24 @@ class PrivacyLoss {
  public:
   /// D: outputs x n; S: outputs x outputs, positive semidefinite.
   PrivacyLoss(const Eigen::MatrixXd& D, const Eigen::MatrixXd& S, double bound);
+  /// The same for a noise that few outputs share, such as that of a long stream of messages: O(outputs) where S has a
+  /// band.
+  static PrivacyLoss banded(const Eigen::MatrixXd& D, const Eigen::SparseMatrix<double>& S, double bound);
+  /// The same for independent outputs of those variances, each >= 0.
+  static PrivacyLoss white(const Eigen::MatrixXd& D, const Eigen::VectorXd& variances, double bound);
   /// Infinite where a shift meets no noise.
   double mu() const { return mu_; }
   const Eigen::VectorXd& shift() const { return shift_; }  ///< the worst one
+  const Eigen::VectorXd& weights() const { return weights_; }
   /// ln of how much likelier the output is under the trajectory it came from than under its neighbour, given the noise
   /// that was drawn (outputs). Its law is N(mu^2/2, mu^2). Only where mu is finite.
   double sampled(const Eigen::VectorXd& noise) const { return weights_.dot(noise) + 0.5 * mu_ * mu_; }
 
  private:
+  PrivacyLoss() = default;
+  /// For the shift D and S^-1 D.
+  void take(const Eigen::MatrixXd& D, const Eigen::MatrixXd& solved, double bound);
+
   Eigen::VectorXd shift_, weights_;  ///< weights: S^-1 shift
   double mu_ = 0;
 };

@@ -76,7 +76,7 @@ TwoStep design_two_step(const FusionModel& model, const TwoStepSettings& setting
   TwoStep design;
   design.gamma = gamma_factor(settings.epsilon, settings.delta);
   auto filters = stationary_filters(model);
-  if (!filters) throw InputError("/", "a sensor's filter has no stationary law: the target is not detectable from it");
+  if (!filters) throw InputError("", "a sensor's filter has no stationary law: the target is not detectable from it");
   design.filters = std::move(*filters);
   design.nominal = fuse(design.filters.P, n);
   design.Rg = settings.Rg;
@@ -164,11 +164,30 @@ const Eigen::VectorXd& TwoStepReceiver::receive(const Eigen::VectorXd& message) 
     x_ = G_ * message / window_;
     past_.assign(static_cast<std::size_t>(window_), x_);
   } else {
-    x_ = G_ * (message - last_) + past_[slot];  // of t - window, or of 0
+    last_ = message - last_;
+    x_ = past_[slot];  // of t - window, or of 0
+    x_.noalias() += G_ * last_;
     past_[slot] = x_;
   }
   last_ = message;
+  known_ = true;
   ++t_;
+  return x_;
+}
+
+const Eigen::VectorXd& TwoStepReceiver::miss(const Eigen::VectorXd& guess) {
+  x_ = guess;
+  if (t_ == 0) past_.assign(static_cast<std::size_t>(window_), x_);
+  past_[static_cast<std::size_t>(t_ % window_)] = x_;
+  known_ = false;
+  ++t_;
+  return x_;
+}
+
+const Eigen::VectorXd& TwoStepReceiver::resume(const Eigen::VectorXd& message, const Eigen::VectorXd& guess) {
+  miss(guess);
+  last_ = message;
+  known_ = true;
   return x_;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/methods/privacy/gaussian_mechanism.hpp"
 #include "engine/methods/privacy/lmv_fusion.hpp"
 #include "engine/methods/privacy/local_filters.hpp"
 
@@ -71,23 +72,34 @@ class TwoStepReceiver {
  public:
   TwoStepReceiver(Eigen::MatrixXd G, int window) : G_(std::move(G)), window_(window) {}
   const Eigen::VectorXd& receive(const Eigen::VectorXd& message);
+  /// A message that did not come, or whose difference to the one before cannot be made because that did not come: x is
+  /// `guess` in this tick, and what later ticks add up to goes on from there.
+  const Eigen::VectorXd& miss(const Eigen::VectorXd& guess);
+  /// The same, and this tick's message is known: the next difference can be made.
+  const Eigen::VectorXd& resume(const Eigen::VectorXd& message, const Eigen::VectorXd& guess);
+  /// False where the message before did not come: receive() would have nothing to subtract.
+  bool in_step() const { return t_ == 0 || known_; }
+  const Eigen::VectorXd& x() const { return x_; }
 
  private:
   std::int64_t t_ = 0;
   Eigen::MatrixXd G_;
   int window_;
+  bool known_ = false;                 ///< last_ is the message of the tick before
   std::vector<Eigen::VectorXd> past_;  ///< x, a ring of `window`
   Eigen::VectorXd last_, x_;
 };
 
-/// How far apart two trajectories that differ at one time look to one who watches a sensor's messages, as mu.
+/// What two trajectories that differ at one time t0 look like to one who watches a sensor's messages; noises of a
+/// message, oldest first.
 struct TwoStepViews {
-  double single = 0;        ///< the message of that time (Theorem 4.1)
-  double single_worst = 0;  ///< the later message with the largest shift
+  PrivacyLoss single;        ///< the message of that time (Theorem 4.1)
+  PrivacyLoss single_worst;  ///< the later message with the largest shift
   int worst_lag = 0;
-  double difference = 0;  ///< that message less the one before
-  double prefix = 0;      ///< 60 earlier messages and that one
-  double stream = 0;      ///< and 60 later ones
+  PrivacyLoss difference;  ///< that message less the one before
+  PrivacyLoss prefix;      ///< kAround earlier messages and that one
+  PrivacyLoss stream;      ///< and kAround later ones
+  static constexpr int kAround = 60;
 };
 TwoStepViews two_step_views(const TwoStep& design, const TwoStepSettings& settings, std::size_t sensor);
 

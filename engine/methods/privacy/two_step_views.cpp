@@ -1,5 +1,10 @@
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "engine/methods/privacy/gaussian_mechanism.hpp"
 #include "engine/methods/privacy/two_step.hpp"
@@ -9,7 +14,6 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr int kAround = 60;   // messages before and after the difference
 constexpr int kMemory = 400;  // lags looked at for the worst one
 
 /// The shift of s(t0 + k), k = 0 .. last: the filter's memory of the difference, summed over the window.
@@ -26,39 +30,60 @@ std::vector<MatrixXd> shifts(const MatrixXd& Psi, const MatrixXd& V, int window,
   return sums;
 }
 
+double least_eigenvalue(const MatrixXd& S) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
+/// The joint covariance of the noises of so many messages in a row: they share terms of their windows.
+Eigen::SparseMatrix<double> stream_noise(const MatrixXd& first, const MatrixXd& second, int window, int messages) {
+  const auto n = static_cast<int>(first.rows());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int t = 0; t < messages; ++t) {
+    for (int u = std::max(0, t - window + 1); u < std::min(messages, t + window); ++u) {
+      MatrixXd block = (window - std::abs(t - u)) * first;
+      if (t == u) block += second;
+      for (int r = 0; r < n; ++r) {
+        for (int c = 0; c < n; ++c) entries.emplace_back(t * n + r, u * n + c, block(r, c));
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> S(messages * n, messages * n);
+  S.setFromTriplets(entries.begin(), entries.end());
+  return S;
+}
+
 }  // namespace
 
 TwoStepViews two_step_views(const TwoStep& design, const TwoStepSettings& settings, std::size_t sensor) {
-  const auto n = design.nominal.P.rows();
+  const auto n = static_cast<int>(design.nominal.P.rows());
   const auto at = static_cast<Eigen::Index>(sensor) * n;
   const MatrixXd first = design.q_xi[sensor] * design.Rg[sensor] * design.Rg[sensor].transpose();
   const MatrixXd second = settings.q_alpha * design.Pi.block(at, at, n, n);
   const auto moved = shifts(design.filters.Psi[sensor], design.V[sensor], settings.window, kMemory);
-  const auto mu = [&](const MatrixXd& D, const MatrixXd& S) { return PrivacyLoss(D, S, settings.zeta).mu(); };
+  const auto loss = [&](const MatrixXd& D, const MatrixXd& S) { return PrivacyLoss(D, S, settings.zeta); };
 
-  TwoStepViews views;
-  views.single = mu(moved.front(), design.Qphi[sensor]);
-  for (std::size_t k = 0; k < moved.size(); ++k) {
-    const double lagged = mu(moved[k], design.Qphi[sensor]);
-    if (k > 0 && !(lagged > views.single_worst * (1 + 1e-9))) continue;
+  const PrivacyLoss single = loss(moved.front(), design.Qphi[sensor]);
+  TwoStepViews views{.single = single,
+                     .single_worst = single,
+                     .difference = loss(moved.front(), 2 * first + 2 * second),
+                     .prefix = single,
+                     .stream = single};
+  const double reach = settings.zeta / std::sqrt(std::max(least_eigenvalue(design.Qphi[sensor]), 0.0));
+  for (std::size_t k = 1; k < moved.size(); ++k) {
+    if (moved[k].norm() * reach <= views.single_worst.mu()) continue;  // too small a shift whatever its direction
+    const PrivacyLoss lagged = loss(moved[k], design.Qphi[sensor]);
+    if (!(lagged.mu() > views.single_worst.mu() * (1 + 1e-9))) continue;
     views.single_worst = lagged;
     views.worst_lag = static_cast<int>(k);
   }
-  views.difference = mu(moved.front(), 2 * first + 2 * second);
 
-  const int messages = 2 * kAround + 1;
-  MatrixXd S = MatrixXd::Zero(messages * n, messages * n), D = MatrixXd::Zero(messages * n, n);
-  for (int t = 0; t < messages; ++t) {
-    for (int u = 0; u < messages; ++u) {
-      const int shared = settings.window - std::abs(t - u);
-      if (shared > 0) S.block(t * n, u * n, n, n) = shared * first;
-    }
-    S.block(t * n, t * n, n, n) += second;
-    if (t >= kAround) D.middleRows(t * n, n) = moved[static_cast<std::size_t>(t - kAround)];
-  }
-  views.stream = mu(D, S);
-  const auto until = (kAround + 1) * n;
-  views.prefix = mu(D.topRows(until), S.topLeftCorner(until, until));
+  const int around = TwoStepViews::kAround, messages = 2 * around + 1;
+  MatrixXd D = MatrixXd::Zero(messages * n, n);
+  for (int t = around; t < messages; ++t) D.middleRows(t * n, n) = moved[static_cast<std::size_t>(t - around)];
+  const auto until = (around + 1) * n;
+  views.prefix =
+      PrivacyLoss::banded(D.topRows(until), stream_noise(first, second, settings.window, around + 1), settings.zeta);
+  views.stream = PrivacyLoss::banded(D, stream_noise(first, second, settings.window, messages), settings.zeta);
   return views;
 }
 

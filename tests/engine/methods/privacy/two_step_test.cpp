@@ -81,23 +81,23 @@ TEST(PrivacyTwoStep, WhatAnObserverOfTheMessagesLearns) {
   const TwoStepSettings settings = engine_settings();
   const TwoStep design = design_two_step(engine_model(), settings);
   const TwoStepViews first = two_step_views(design, settings, 0), second = two_step_views(design, settings, 1);
-  EXPECT_NEAR(first.single, 0.345, 5.1e-4);
-  EXPECT_NEAR(first.difference, 0.331, 5.1e-4);
-  EXPECT_NEAR(first.prefix, 0.396, 5.1e-4);
-  EXPECT_NEAR(first.stream, 1.131, 5.1e-4);
-  EXPECT_NEAR(second.single, 0.441, 5.1e-4);
-  EXPECT_NEAR(second.difference, 0.615, 5.1e-4);
-  EXPECT_NEAR(second.prefix, 0.709, 5.1e-4);
-  EXPECT_NEAR(second.stream, 1.011, 5.1e-4);
-  EXPECT_NEAR(first.single_worst, 0.899, 5.1e-4);
-  EXPECT_NEAR(second.single_worst, 0.766, 5.1e-4);
+  EXPECT_NEAR(first.single.mu(), 0.345, 5.1e-4);
+  EXPECT_NEAR(first.difference.mu(), 0.331, 5.1e-4);
+  EXPECT_NEAR(first.prefix.mu(), 0.396, 5.1e-4);
+  EXPECT_NEAR(first.stream.mu(), 1.131, 5.1e-4);
+  EXPECT_NEAR(second.single.mu(), 0.441, 5.1e-4);
+  EXPECT_NEAR(second.difference.mu(), 0.615, 5.1e-4);
+  EXPECT_NEAR(second.prefix.mu(), 0.709, 5.1e-4);
+  EXPECT_NEAR(second.stream.mu(), 1.011, 5.1e-4);
+  EXPECT_NEAR(first.single_worst.mu(), 0.899, 5.1e-4);
+  EXPECT_NEAR(second.single_worst.mu(), 0.766, 5.1e-4);
   EXPECT_EQ(first.worst_lag, 4);
   EXPECT_EQ(second.worst_lag, 4);
-  EXPECT_NEAR(exact_epsilon(first.stream, 0.1), 1.44, 5.1e-3);
-  EXPECT_NEAR(exact_epsilon(second.stream, 0.1), 1.18, 5.1e-3);
-  EXPECT_NEAR(exact_epsilon(first.single_worst, 0.1), 0.957, 5.1e-4);
-  EXPECT_NEAR(exact_epsilon(second.difference, 0.1), 0.456, 5.1e-4);
-  EXPECT_NEAR(exact_epsilon(second.prefix, 0.1), 0.610, 5.1e-4);
+  EXPECT_NEAR(exact_epsilon(first.stream.mu(), 0.1), 1.44, 5.1e-3);
+  EXPECT_NEAR(exact_epsilon(second.stream.mu(), 0.1), 1.18, 5.1e-3);
+  EXPECT_NEAR(exact_epsilon(first.single_worst.mu(), 0.1), 0.957, 5.1e-4);
+  EXPECT_NEAR(exact_epsilon(second.difference.mu(), 0.1), 0.456, 5.1e-4);
+  EXPECT_NEAR(exact_epsilon(second.prefix.mu(), 0.1), 0.610, 5.1e-4);
 }
 
 /// Mean and standard error of the squared errors of the window mean and of the legitimate user, 240 chains through

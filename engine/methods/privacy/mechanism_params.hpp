@@ -1,0 +1,26 @@
+/// What the mechanisms of differential privacy declare and show alike. Specification (privacy), sections 1.6 and 3.1.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/core/params.hpp"
+#include "engine/methods/privacy/dp_fusion.hpp"
+
+namespace vigil::privacy {
+
+Param epsilon_param();
+Param delta_param();
+Param adjacent_param();  ///< H: the components in which two adjacent trajectories may differ; null: in all
+/// H as n entries. Throws InputError at /H where it is not n zeros and ones.
+Eigen::VectorXd read_adjacent(const Params& params, int n);
+
+/// epsilon, delta, lambda, kappa and H, which both mechanisms of section 3 declare, then those of its own.
+ParamTable dp_table(std::vector<Param> own);
+/// Of those; `shares` is left empty. Throws InputError at /H.
+DpSettings read_dp_settings(const Params& params, int n);
+
+/// [[..],..], as a design has it.
+Json matrix_json(const Eigen::MatrixXd& matrix);
+
+}  // namespace vigil::privacy
