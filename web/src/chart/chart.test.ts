@@ -7,8 +7,8 @@ import { columnsOf, rowSpans, ticksPerColumn } from './raster';
 import { extent, fit, fraction, outside, scaleTicks, tickLabel, ticks } from './scale';
 
 function series(k: number[], lo: number[], hi?: number[]): Series {
-  const low = Float32Array.from(lo);
-  return { k: Float64Array.from(k), lo: low, hi: hi ? Float32Array.from(hi) : low, joined: Uint8Array.from(k.map((_, i) => (i ? 1 : 0))) };
+  const low = Float64Array.from(lo);
+  return { k: Float64Array.from(k), lo: low, hi: hi ? Float64Array.from(hi) : low, joined: Uint8Array.from(k.map((_, i) => (i ? 1 : 0))) };
 }
 const g: Geometry = { width: 252, height: 100, left: 44, right: 8, top: 4, bottom: 18, from: 0, to: 100 };
 

@@ -20,8 +20,8 @@ export interface RasterRow {
  * One value a column for a window of `columns` columns from tick `from`: where a column holds several ticks the greatest
  * (or least) value stands for it. NaN: nothing known. `width` is ticks per column.
  */
-export function columnsOf(series: Series, from: number, width: number, columns: number, least = false): Float32Array {
-  const out = new Float32Array(columns).fill(NaN);
+export function columnsOf(series: Series, from: number, width: number, columns: number, least = false): Float64Array {
+  const out = new Float64Array(columns).fill(NaN);
   for (let i = 0; i < series.k.length; i++) {
     const value = least ? series.lo[i]! : series.hi[i]!;
     if (Number.isNaN(value)) continue;
@@ -84,7 +84,7 @@ function paint(
   context: CanvasRenderingContext2D,
   g: Geometry,
   rows: readonly RasterRow[],
-  cells: readonly Float32Array[],
+  cells: readonly Float64Array[],
   canvas: HTMLCanvasElement,
   p: { from: number; per: number; columns: number },
 ): void {
@@ -114,7 +114,7 @@ function paint(
 function letters(
   context: CanvasRenderingContext2D,
   rows: readonly RasterRow[],
-  cells: readonly Float32Array[],
+  cells: readonly Float64Array[],
   spans: readonly { y: number; height: number }[],
   left: number,
   cellWidth: number,

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { Frame } from '../stream/events';
 import { Ring } from './ring';
 
-const frame = (k: number, value = k, n = 1): Frame => ({ k, t: k / 10, n, v: Float32Array.of(value, -value) });
+const frame = (k: number, value = k, n = 1): Frame => ({ k, t: k / 10, n, v: Float64Array.of(value, -value) });
 
 describe('the ring of newest frames', () => {
   it('keeps the newest and forgets the oldest', () => {

@@ -8,7 +8,7 @@ export class Ring {
   private k: Float64Array;
   private t: Float64Array;
   private n: Int32Array;
-  private columns: Float32Array[];
+  private columns: Float64Array[];
   private head = 0;
   private size = 0;
 
@@ -19,7 +19,7 @@ export class Ring {
     this.k = new Float64Array(capacity);
     this.t = new Float64Array(capacity);
     this.n = new Int32Array(capacity);
-    this.columns = signals.map(() => new Float32Array(capacity));
+    this.columns = signals.map(() => new Float64Array(capacity));
   }
 
   get length(): number {
@@ -103,7 +103,7 @@ export class Ring {
   }
 
   private row(i: number): Frame {
-    const v = new Float32Array(this.columns.length);
+    const v = new Float64Array(this.columns.length);
     for (let c = 0; c < v.length; c++) v[c] = this.value(c, i);
     return { k: this.tick(i), t: this.time(i), n: this.ticks(i), v };
   }

@@ -3,14 +3,14 @@ import { Ring } from './ring';
 import { concatSeries, decimate, difference, gapsOf, ringSeries, samplesSeries, usualStep, valueAt, type Series } from './series';
 
 function series(k: number[], v: number[], joined?: number[]): Series {
-  const values = Float32Array.from(v);
+  const values = Float64Array.from(v);
   return { k: Float64Array.from(k), lo: values, hi: values, joined: Uint8Array.from(joined ?? k.map((_, i) => (i ? 1 : 0))) };
 }
 
 describe('a window of a signal', () => {
   it('reads a ring with one row more on both sides', () => {
     const ring = new Ring([0], 20);
-    for (let k = 0; k < 10; k++) ring.push({ k, t: k, n: 1, v: Float32Array.of(k * k) });
+    for (let k = 0; k < 10; k++) ring.push({ k, t: k, n: 1, v: Float64Array.of(k * k) });
     const found = ringSeries(ring, 0, 3, 5);
     expect([...found.k]).toEqual([2, 3, 4, 5, 6]);
     expect([...found.lo]).toEqual([4, 9, 16, 25, 36]);
@@ -108,7 +108,7 @@ describe('a difference', () => {
   });
 
   it('of extremes holds every difference that they allow', () => {
-    const a: Series = { ...series([0, 10], [1, 2]), hi: Float32Array.of(3, 4) };
+    const a: Series = { ...series([0, 10], [1, 2]), hi: Float64Array.of(3, 4) };
     const found = difference(a, series([0, 10], [1, 1]));
     expect([[...found.lo], [...found.hi]]).toEqual([[0, 1], [2, 3]]);
     expect(difference(series([], []), a).k.length).toBe(0);

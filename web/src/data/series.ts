@@ -4,14 +4,14 @@ import type { Ring } from './ring';
 
 export interface Series {
   k: Float64Array;
-  lo: Float32Array;
+  lo: Float64Array;
   /** The same array as `lo` where the samples are raw. */
-  hi: Float32Array;
+  hi: Float64Array;
   /** 1 where a point goes on from the one before; 0 after missing ticks. */
   joined: Uint8Array;
 }
 
-export const emptySeries: Series = { k: new Float64Array(0), lo: new Float32Array(0), hi: new Float32Array(0), joined: new Uint8Array(0) };
+export const emptySeries: Series = { k: new Float64Array(0), lo: new Float64Array(0), hi: new Float64Array(0), joined: new Uint8Array(0) };
 
 /** A column of a ring from tick `from` to `to`, with one row more on each side so that lines reach the edges. */
 export function ringSeries(ring: Ring, column: number, from: number, to: number): Series {
@@ -19,7 +19,7 @@ export function ringSeries(ring: Ring, column: number, from: number, to: number)
   const end = Math.min(ring.length, ring.lower(to + 1) + 1);
   const length = Math.max(0, end - begin);
   const k = new Float64Array(length);
-  const v = new Float32Array(length);
+  const v = new Float64Array(length);
   const joined = new Uint8Array(length);
   for (let i = 0; i < length; i++) {
     k[i] = ring.tick(begin + i);
@@ -56,8 +56,8 @@ export function samplesSeries(samples: Samples): Map<string, Series> {
   return result;
 }
 
-function numbers(values: readonly (number | null)[]): Float32Array {
-  const result = new Float32Array(values.length);
+function numbers(values: readonly (number | null)[]): Float64Array {
+  const result = new Float64Array(values.length);
   for (let i = 0; i < result.length; i++) result[i] = values[i] ?? NaN;
   return result;
 }
@@ -70,7 +70,7 @@ export function concatSeries(a: Series, b: Series): Series {
   let skip = 0;
   while (skip < b.k.length && b.k[skip]! <= last) skip++;
   const raw = a.lo === a.hi && b.lo === b.hi;
-  const join = <T extends Float64Array | Float32Array | Uint8Array>(x: T, y: T): T => {
+  const join = <T extends Float64Array | Uint8Array>(x: T, y: T): T => {
     const Type = x.constructor as new (n: number) => T;
     const out = new Type(x.length + y.length - skip);
     out.set(x as never);
@@ -89,8 +89,8 @@ export function difference(a: Series, b: Series): Series {
   const most = Math.min(a.k.length, b.k.length);
   const raw = a.lo === a.hi && b.lo === b.hi;
   const k = new Float64Array(most);
-  const lo = new Float32Array(most);
-  const hi = raw ? lo : new Float32Array(most);
+  const lo = new Float64Array(most);
+  const hi = raw ? lo : new Float64Array(most);
   const joined = new Uint8Array(most);
   let length = 0;
   let whole = false;
@@ -117,9 +117,9 @@ export function difference(a: Series, b: Series): Series {
 }
 
 /** What is made of series that stay as they are, kept as long as they are: a drawing asks for it again and again. */
-const made = new WeakMap<Float32Array, { with: Float32Array | null; series: Series }>();
+const made = new WeakMap<Float64Array, { with: Float64Array | null; series: Series }>();
 
-function kept(from: Float32Array, beside: Float32Array | null, make: () => Series): Series {
+function kept(from: Float64Array, beside: Float64Array | null, make: () => Series): Series {
   const known = made.get(from);
   if (known?.with === beside) return known.series;
   const series = make();
@@ -197,8 +197,8 @@ export function decimate(series: Series, buckets: number): Series {
 
 function pick(series: Series, rows: readonly number[]): Series {
   const k = new Float64Array(rows.length);
-  const lo = new Float32Array(rows.length);
-  const hi = series.lo === series.hi ? lo : new Float32Array(rows.length);
+  const lo = new Float64Array(rows.length);
+  const hi = series.lo === series.hi ? lo : new Float64Array(rows.length);
   const joined = new Uint8Array(rows.length);
   let before = 0;
   rows.forEach((row, i) => {

@@ -18,7 +18,7 @@ describe('where samples come from', () => {
     const fetchSamples = vi.fn(async (query: Parameters<typeof answer>[0]) => answer(query));
     const source = new Source('1', signals, () => {}, fetchSamples);
     const ring = new Ring([0], 100);
-    for (let k = 50; k < 60; k++) ring.push({ k, t: k, n: 1, v: Float32Array.of(k) });
+    for (let k = 50; k < 60; k++) ring.push({ k, t: k, n: 1, v: Float64Array.of(k) });
     source.rings = [ring];
     source.head = 59;
     expect([...source.get('a', 55, 59).k]).toEqual([54, 55, 56, 57, 58, 59]);
@@ -31,7 +31,7 @@ describe('where samples come from', () => {
     const changed = vi.fn();
     const source = new Source('1', signals, changed, fetchSamples);
     const ring = new Ring([0], 100);
-    for (let k = 50; k < 60; k++) ring.push({ k, t: k, n: 1, v: Float32Array.of(1) });
+    for (let k = 50; k < 60; k++) ring.push({ k, t: k, n: 1, v: Float64Array.of(1) });
     source.rings = [ring];
     source.head = 59;
     expect([...source.get('a', 0, 59).k]).toEqual([50, 51, 52, 53, 54, 55, 56, 57, 58, 59]);
@@ -61,7 +61,7 @@ describe('where samples come from', () => {
     expect(fetchSamples.mock.calls.at(-1)![0].points).toBeLessThan(10_000);
     // Beside a signal that no stream carries its partner comes from the log, too.
     const ring = new Ring([0], 100);
-    for (let k = 9990; k < 10_000; k++) ring.push({ k, t: k, n: 1, v: Float32Array.of(-1) });
+    for (let k = 9990; k < 10_000; k++) ring.push({ k, t: k, n: 1, v: Float64Array.of(-1) });
     source.rings = [ring];
     source.logged('b', 9990, 9999);
     await vi.advanceTimersByTimeAsync(2000);

@@ -172,7 +172,7 @@ export function framesOf(parts: readonly Samples[], names: readonly (readonly st
   const rows = new Map<number, Frame>();
   let step = Infinity;
   for (let i = 1; i < first.k.length; i++) step = Math.min(step, first.k[i]! - first.k[i - 1]!);
-  first.k.forEach((k, i) => rows.set(k, { k, t: first.t?.[i] ?? NaN, n: Number.isFinite(step) ? step : 1, v: new Float32Array(width).fill(NaN) }));
+  first.k.forEach((k, i) => rows.set(k, { k, t: first.t?.[i] ?? NaN, n: Number.isFinite(step) ? step : 1, v: new Float64Array(width).fill(NaN) }));
   let offset = 0;
   parts.forEach((part, p) => {
     const byName = new Map(part.series.map((series) => [series.signal, series]));

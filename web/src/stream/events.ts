@@ -20,7 +20,7 @@ export interface Frame {
   /** Ticks that this frame stands for. */
   n: number;
   /** NaN where the server sent null. */
-  v: Float32Array;
+  v: Float64Array;
 }
 
 export interface Gap {
@@ -49,7 +49,7 @@ export type StreamEvent =
 
 export function parseFrame(text: string): Frame {
   const raw = JSON.parse(text) as { k: number; t: number; n?: number; v: (number | null)[] };
-  const v = new Float32Array(raw.v.length);
+  const v = new Float64Array(raw.v.length);
   for (let i = 0; i < v.length; i++) v[i] = raw.v[i] ?? NaN;
   return { k: raw.k, t: raw.t, n: raw.n ?? 1, v };
 }

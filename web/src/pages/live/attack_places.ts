@@ -8,7 +8,7 @@ export type PlaceKind = (typeof placeKinds)[number];
 type Places = Pick<RunModel, 'links' | 'nodes'>;
 
 /** Attacks that act on one kind of place only. The server has the last word: it refuses with the reason. */
-const only: Readonly<Record<string, PlaceKind>> = { dos: 'link', dos_fdi: 'link', radar_fdi: 'sensor', replay: 'sensor', waveform: 'actuator' };
+const only: Readonly<Record<string, PlaceKind>> = { dos: 'link', dos_fdi: 'link', eavesdrop: 'link', radar_fdi: 'sensor', replay: 'sensor', waveform: 'actuator' };
 const usual: Readonly<Record<PlaceKind, string>> = { link: 'dos_fdi', sensor: 'replay', actuator: 'bias' };
 
 /** The words on the button. */
@@ -48,7 +48,7 @@ export function usualKind(run: Pick<RunDetail, 'document'> | null, model: Places
 export function usualType(run: Pick<RunDetail, 'document'> | null, types: readonly string[], kind: PlaceKind): string {
   const known = typesAt(types, kind);
   const own = Object.values((run?.document?.adversary ?? {}) as Attacks).find((attack) => actsOn(attack, kind) && known.includes(String(attack?.type)));
-  // Pieces of time are a scenario's: by hand a push that lasts is meant.
-  const wanted = kind === 'sensor' ? String(own?.type ?? usual.sensor) : usual[kind];
+  // Pieces of time are a scenario's: by hand a push that lasts is meant. Who only listens in the scenario listens by hand, too.
+  const wanted = kind === 'sensor' || own?.type === 'eavesdrop' ? String(own?.type ?? usual[kind]) : usual[kind];
   return known.includes(wanted) ? wanted : (known[0] ?? '');
 }

@@ -15,7 +15,7 @@ const read = (query: string) => (key: string) => new URLSearchParams(query).get(
 
 describe('the view in the address', () => {
   it('comes back as it went', () => {
-    const view: ViewState = { range: { from: 12, to: 480 }, width: 300, cursor: 77, lane: 'naive_hold', node: '5', hidden: ['drop', 'clean'], signals: ['truth.x'], errors: 'nodes' };
+    const view: ViewState = { range: { from: 12, to: 480 }, width: 300, cursor: 77, lane: 'naive_hold', node: '5', hidden: ['drop', 'clean'], signals: ['truth.x'], errors: 'nodes', curves: ['local', 'eve.zero'] };
     const query = new URLSearchParams();
     for (const [key, value] of Object.entries(viewQuery(view))) if (value !== null) query.set(key, String(value));
     expect(parseView((key) => query.get(key))).toEqual(view);
@@ -145,15 +145,15 @@ describe('panels', () => {
   });
 
   it('square an error to compare it with a trace', () => {
-    const v = Float32Array.of(2, -3, NaN);
+    const v = Float64Array.of(2, -3, NaN);
     const out = squared({ k: Float64Array.of(0, 1, 2), lo: v, hi: v, joined: Uint8Array.of(0, 1, 1) });
     expect([...out.lo]).toEqual([4, 9, NaN]);
     expect(out.hi).toBe(out.lo);
   });
 
   it('give their data as rows, newest first, with both extremes', () => {
-    const lo = Float32Array.of(1, 2);
-    const table = seriesTable([{ name: 'e', series: { k: Float64Array.of(0, 10), lo, hi: Float32Array.of(3, 2), joined: Uint8Array.of(0, 1) } }], 0, 10);
+    const lo = Float64Array.of(1, 2);
+    const table = seriesTable([{ name: 'e', series: { k: Float64Array.of(0, 10), lo, hi: Float64Array.of(3, 2), joined: Uint8Array.of(0, 1) } }], 0, 10);
     expect(table.columns).toEqual(['k', 'e']);
     expect(table.rows).toEqual([
       ['10', '2.000'],
@@ -167,7 +167,7 @@ describe('panels', () => {
 
   it('keep the plane’s box while everything is inside', () => {
     const track = (x: number[], y: number[]) => {
-      const make = (v: number[]) => ({ k: Float64Array.from(v.keys()), lo: Float32Array.from(v), hi: Float32Array.from(v), joined: new Uint8Array(v.length).fill(1) });
+      const make = (v: number[]) => ({ k: Float64Array.from(v.keys()), lo: Float64Array.from(v), hi: Float64Array.from(v), joined: new Uint8Array(v.length).fill(1) });
       return { x: make(x), y: make(y) };
     };
     const scene = (x: number[]) => ({ nodes: [{ id: '1', position: [0, 0] as [number, number] }, { id: '2', position: [10, 10] as [number, number] }], links: [], truth: track(x, x), estimates: [], token: '', at: 99, trail: 100 });

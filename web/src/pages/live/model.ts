@@ -34,6 +34,8 @@ export interface RunModel {
   links: LinkModel[];
   /** `state`: the signal that tells which attack acts on the node's sensor. `actuator`: whether it has one that can be attacked. */
   nodes: { id: string; position: [number, number] | null; state: string | null; actuator?: boolean }[];
+  /** Who is not a node and receives from nodes: a fusion centre. Null: there is none. */
+  centre: string | null;
   plane: { x: string; y: string; unit: string } | null;
   errorUnit: string;
   /** The lane that a scenario leads with. */
@@ -53,11 +55,17 @@ export function makeModel(run: RunDetail, signals: Signal[]): RunModel {
     lanes,
     links: (run.world?.links ?? []).map(({ id, from, to }) => ({ id, from, to, state: names.has(`link.${id}.state`) ? `link.${id}.state` : null })),
     nodes: (run.world?.nodes ?? []).map(({ id, position }) => ({ id, position: position && position.length >= 2 ? [position[0]!, position[1]!] : null, state: names.has(`sensor.${id}.state`) ? `sensor.${id}.state` : null, ...(signals.some(({ name }) => name.startsWith(`actuator.${id}.`)) ? { actuator: true } : {}) })),
+    centre: centreOf(run),
     plane,
     errorUnit: run.view?.error_unit ?? anyError?.unit ?? '',
     lead: run.view?.lane ?? null,
     signals,
   };
+}
+
+function centreOf(run: RunDetail): string | null {
+  const nodes = run.world?.nodes ?? [];
+  return (run.world?.links ?? []).find(({ to }) => nodes.length > 0 && !nodes.some(({ id }) => id === to))?.to ?? null;
 }
 
 function planeComponents(run: RunDetail, names: Map<string, Signal>): [string, string] {

@@ -38,7 +38,7 @@ const run = {
 function bench(change: { run?: Partial<RunDetail>; marks?: Mark[]; stream?: Session['stream'] } = {}): { session: Session; view: LiveView; context: Map<unknown, unknown> } {
   const source = new Source('7', signals, () => {}, () => new Promise(() => {}));
   const ring = new Ring(signals.map((signal) => signal.id));
-  for (let k = 0; k < 10; k++) ring.push({ k, t: k, n: 1, v: Float32Array.from(signals, (_, i) => (i === 2 ? 1 : i + k / 10)) });
+  for (let k = 0; k < 10; k++) ring.push({ k, t: k, n: 1, v: Float64Array.from(signals, (_, i) => (i === 2 ? 1 : i + k / 10)) });
   source.rings = [ring];
   source.head = 9;
   const shown = { ...run, ...change.run };

@@ -18,6 +18,8 @@ import type { RunModel } from './model';
 import { recordOf } from './observer/record';
 import { hasSubsystems } from './observer/subsystems';
 import PlanePanel from './PlanePanel.svelte';
+import { hasCentre } from './privacy/centre';
+import { hasMessages, promisesPrivacy, publishes, sizeIn } from './privacy/layout';
 import FusionPanel from './fusion/FusionPanel.svelte';
 import { gameOf } from './fusion/game';
 import StrategyPanel from './fusion/StrategyPanel.svelte';
@@ -44,15 +46,25 @@ export interface PanelEntry {
   middle: readonly [columns: number, rows: number];
   /** Height in px where the panels stand one below the other. */
   narrow: number;
+  /** Another size on a wide screen, beside what else the run shows; null: the usual one. */
+  sized?: (run: RunDetail, model: RunModel) => readonly [columns: number, rows: number] | null;
 }
 
 const consensus = (run: RunDetail): boolean => run.family === 'consensus';
 const detects = (run: RunDetail, model: RunModel): boolean => aboutDetectors(run) && detectorsOf(model, null).length > 0;
 const subsystems = (_: RunDetail, model: RunModel): boolean => hasSubsystems(model);
 const designed = (run: RunDetail, model: RunModel): boolean => hasSubsystems(model) || Object.keys(run.design ?? {}).some((lane) => recordOf(run, lane) !== null);
+const centred = (_: RunDetail, model: RunModel): boolean => hasCentre(model);
 const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
 
 export const panels: readonly PanelEntry[] = [
+  { name: 'tracks', load: () => import('./privacy/TracksPanel.svelte'), wide: [5, 1], middle: [12, 1], narrow: 400, applies: centred, sized: sizeIn('tracks') },
+  { name: 'squares', load: () => import('./privacy/SquaresPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 420, applies: centred, sized: sizeIn('squares') },
+  { name: 'confidentiality', load: () => import('./privacy/ConfidentialityPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 560, applies: centred },
+  { name: 'guarantee', load: () => import('./privacy/GuaranteePanel.svelte'), wide: [5, 1], middle: [12, 1], narrow: 420, applies: promisesPrivacy },
+  { name: 'releases', load: () => import('./privacy/ReleasesPanel.svelte'), wide: [4, 1], middle: [6, 1], narrow: 480, applies: promisesPrivacy, sized: sizeIn('releases') },
+  { name: 'surfaces', load: () => import('./privacy/SurfacesPanel.svelte'), wide: [4, 1], middle: [6, 1], narrow: 480, applies: publishes, sized: sizeIn('surfaces') },
+  { name: 'messages', load: () => import('./privacy/MessagesPanel.svelte'), wide: [4, 1], middle: [6, 1], narrow: 300, applies: hasMessages, sized: sizeIn('messages') },
   { name: 'state-errors', load: () => import('./observer/StateErrorsPanel.svelte'), wide: [5, 1], middle: [12, 1], narrow: 420, applies: subsystems },
   { name: 'attack-fault', load: () => import('./observer/AttackFaultPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 560, applies: subsystems },
   { name: 'methods', load: () => import('./observer/ComparisonPanel.svelte'), wide: [7, 2], middle: [12, 1], narrow: 620, applies: subsystems },
@@ -62,11 +74,11 @@ export const panels: readonly PanelEntry[] = [
   { name: 'whatif', component: WhatIfPanel, wide: [5, 1], middle: [6, 1], narrow: 280, applies: detects },
   { name: 'profile', component: ProfilePanel, wide: [5, 1], middle: [6, 1], narrow: 330, applies: (run) => aboutDetectors(run) },
   { name: 'rates', component: RatesPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: detects },
-  { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: (run, model) => consensus(run) || (!!model.plane && !run.view.space) },
-  { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && !hasSubsystems(model) && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
+  { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: (run, model) => consensus(run) || (!!model.plane && !run.view.space && !hasCentre(model)) },
+  { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && !hasSubsystems(model) && !hasCentre(model) && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
   { name: 'raster', component: RasterPanel, wide: [7, 1], middle: [6, 1], narrow: 340, applies: (run) => consensus(run) },
   { name: 'feasible', component: FeasiblePanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || anyLane(model, (lane) => lane.feasible28.size) },
-  { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && anyLane(model, (lane) => lane.bound.size)) },
+  { name: 'bound', component: BoundPanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && !hasCentre(model) && anyLane(model, (lane) => lane.bound.size)) },
   { name: 'estimates', component: EstimatesPanel, wide: [6, 2], middle: [12, 1], narrow: 560, applies: (run) => aboutDetectors(run) },
   { name: 'density', component: DensityPanel, wide: [6, 2], middle: [12, 1], narrow: 720, applies: (run) => aboutDetectors(run) },
   { name: 'trials', component: TrialsPanel, wide: [12, 1], middle: [12, 1], narrow: 460, applies: detects },
@@ -78,11 +90,11 @@ export const panels: readonly PanelEntry[] = [
   { name: 'reconstruction', component: ReconstructionPanel, wide: [7, 2], middle: [6, 2], narrow: 500, applies: (_, model) => !hasSubsystems(model) && reconstructionOf(model, null) !== null },
   { name: 'schedule', component: SchedulePanel, wide: [5, 1], middle: [6, 1], narrow: 220, applies: (run, model) => sensorsAttacked(run) && !aboutDetectors(run) && stationsOf(model).length > 0 },
   { name: 'verdict', component: VerdictPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: (run, model) => reportOf(run, model, null) !== null },
-  { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true },
+  { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true, sized: sizeIn('events') },
 ];
 
 export function panelsOf(run: RunDetail, model: RunModel): readonly PanelEntry[] {
-  return panels.filter((panel) => panel.applies(run, model));
+  return panels.filter((panel) => panel.applies(run, model)).map((panel) => ({ ...panel, wide: panel.sized?.(run, model) ?? panel.wide }));
 }
 
 export interface Rows {
@@ -95,6 +107,7 @@ export interface Rows {
 const usualRows: Rows = { wide: [29, 47, 29], middle: [320, 320, 260] };
 const familyRows: Record<string, Rows> = {
   sparse: { wide: [1, 1, 1], middle: [400, 460, 300] },
+  privacy: { wide: [10, 11, 10], middle: [360, 360, 420, 400, 340] },
   observer: { wide: [10, 9, 11], middle: [340, 340, 380, 320] },
 };
 

@@ -11,7 +11,8 @@ export interface Track {
 }
 
 export interface PlaneScene {
-  nodes: { id: string; position: [number, number] | null }[];
+  /** `centre`: no sensor stands there; drawn as a square. */
+  nodes: { id: string; position: [number, number] | null; centre?: boolean }[];
   links: { from: string; to: string; value: number }[];
   truth: Track;
   estimates: { id: string; track: Track; chosen: boolean }[];
@@ -19,6 +20,14 @@ export interface PlaneScene {
   /** Tick up to which the ways are drawn. */
   at: number;
   trail: number;
+}
+
+/** The nodes and, among them in the middle of those whose place is known, the fusion centre. */
+export function withCentre(nodes: PlaneScene['nodes'], centre: string | null): PlaneScene['nodes'] {
+  const placed = nodes.flatMap(({ position }) => (position ? [position] : []));
+  if (centre === null || !placed.length) return nodes;
+  const mean = (axis: 0 | 1): number => placed.reduce((sum, position) => sum + position[axis], 0) / placed.length;
+  return [...nodes, { id: centre, position: [mean(0), mean(1)], centre: true }];
 }
 
 export interface PlaneBox {
@@ -164,11 +173,12 @@ function nodes(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y:
   context.font = `600 ${many ? 9 : 11}px 'IBM Plex Mono', monospace`;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
-  for (const { id, position } of scene.nodes) {
+  for (const { id, position, centre } of scene.nodes) {
     if (!position) continue;
     const [x, y] = [X(position[0]), Y(position[1])];
     context.beginPath();
-    context.arc(x, y, many ? 7.5 : id.length > 1 ? 10.5 : 9, 0, 2 * Math.PI);
+    if (centre) context.rect(x - 21, y - 9, 42, 18);
+    else context.arc(x, y, many ? 7.5 : id.length > 1 ? 10.5 : 9, 0, 2 * Math.PI);
     context.fillStyle = colour('surface');
     context.fill();
     context.lineWidth = 1.4;

@@ -35,6 +35,9 @@ export class LiveView {
   get errors(): 'lanes' | 'nodes' {
     return this.state.errors;
   }
+  get curves(): readonly string[] {
+    return this.state.curves;
+  }
   /** The tick that panels show the state of; null: the newest. */
   get at(): number | null {
     return this.hover ?? this.state.cursor;
@@ -103,6 +106,11 @@ export class LiveView {
   toggle(lane: string): void {
     const hidden = this.state.hidden.includes(lane) ? this.state.hidden.filter((id) => id !== lane) : [...this.state.hidden, lane];
     this.set({ hidden });
+  }
+  /** Shows or hides a kind of curve on every panel. */
+  turn(curve: string): void {
+    const curves = this.state.curves.includes(curve) ? this.state.curves.filter((id) => id !== curve) : [...this.state.curves, curve];
+    this.set({ curves });
   }
   /** Shows this lane alone; again: all. */
   solo(lane: string, all: readonly string[]): void {

@@ -10,6 +10,8 @@ export interface ViewState {
   /** Signals picked by hand. */
   signals: readonly string[];
   errors: 'lanes' | 'nodes';
+  /** Curves of a fusion centre's lanes that are switched from how they begin. */
+  curves: readonly string[];
 }
 
 export const defaultWidth = 120;
@@ -38,6 +40,7 @@ export function parseView(read: (key: string) => string | null): ViewState {
     hidden: list(read('hide')),
     signals: list(read('signals')),
     errors: read('errors') === 'nodes' ? 'nodes' : 'lanes',
+    curves: list(read('curves')),
   };
 }
 
@@ -51,5 +54,6 @@ export function viewQuery(view: ViewState): Record<string, string | number | nul
     hide: view.hidden.join(',') || null,
     signals: view.signals.join(',') || null,
     errors: view.errors === 'lanes' ? null : view.errors,
+    curves: view.curves.join(',') || null,
   };
 }

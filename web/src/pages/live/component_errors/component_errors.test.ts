@@ -17,7 +17,7 @@ const run = {
 const model = makeModel(run, signals);
 
 function series(values: number[]): Series {
-  const v = Float32Array.from(values);
+  const v = Float64Array.from(values);
   return { k: Float64Array.from(values.keys()), lo: v, hi: v, joined: Uint8Array.from(values, (_, i) => (i ? 1 : 0)) };
 }
 

@@ -23,7 +23,7 @@ const model = makeModel(run, signals);
 
 /** One point a tick from `first` on; '.': missing. */
 function raw(text: string, first = 1): Series {
-  const lo = Float32Array.from(text, (c) => (c === '.' ? NaN : Number(c)));
+  const lo = Float64Array.from(text, (c) => (c === '.' ? NaN : Number(c)));
   return { k: Float64Array.from(text, (_, i) => first + i), lo, hi: lo, joined: Uint8Array.from(text, (_, i) => (i ? 1 : 0)) };
 }
 const short = (stretches: readonly Stretch[]): string[] => stretches.map(({ from, to, sign }) => `${sign} ${from}-${to}`);
@@ -69,15 +69,15 @@ describe('the alarm strip', () => {
   });
 
   it('gives a thinned frame all its ticks, and breaks at missing ones', () => {
-    const v = Float32Array.of(0, 1, 1);
+    const v = Float64Array.of(0, 1, 1);
     const thinned: Series = { k: Float64Array.of(1, 5, 9), lo: v, hi: v, joined: Uint8Array.of(0, 1, 0) };
-    const s = Float32Array.of(3, 3, 3);
+    const s = Float64Array.of(3, 3, 3);
     expect(short(stretchesOf(thinned, { ...thinned, lo: s, hi: s }, counting))).toEqual(['miss 1-1', 'hit 2-5', 'hit 9-9']);
   });
 
   it('takes the greatest of reduced samples up to the next point', () => {
-    const reduced: Series = { k: Float64Array.of(0, 10, 20), lo: Float32Array.of(0, 0, 0), hi: Float32Array.of(0, 1, 0), joined: Uint8Array.of(0, 1, 1) };
-    const calm: Series = { ...reduced, hi: Float32Array.of(0, 0, 0) };
+    const reduced: Series = { k: Float64Array.of(0, 10, 20), lo: Float64Array.of(0, 0, 0), hi: Float64Array.of(0, 1, 0), joined: Uint8Array.of(0, 1, 1) };
+    const calm: Series = { ...reduced, hi: Float64Array.of(0, 0, 0) };
     expect(short(stretchesOf(reduced, calm, counting))).toEqual(['false 10-19']);
   });
 });

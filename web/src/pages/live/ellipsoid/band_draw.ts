@@ -45,7 +45,7 @@ export function drawBand(context: CanvasRenderingContext2D, g: Geometry, scale: 
 }
 
 /** Filled between both edges, stretch by stretch. */
-function fill(context: CanvasRenderingContext2D, g: Geometry, band: Band, half: Float32Array, y: (value: number) => number): void {
+function fill(context: CanvasRenderingContext2D, g: Geometry, band: Band, half: Float64Array, y: (value: number) => number): void {
   for (let begin = 0; begin < band.k.length; ) {
     let end = begin;
     while (end < band.k.length && !Number.isNaN(half[end]! + band.middle[end]!) && (end === begin || band.joined[end])) end++;
@@ -59,7 +59,7 @@ function fill(context: CanvasRenderingContext2D, g: Geometry, band: Band, half: 
   }
 }
 
-function stroke(context: CanvasRenderingContext2D, g: Geometry, k: Float64Array, joined: Uint8Array, sides: readonly Float32Array[], y: (value: number) => number): void {
+function stroke(context: CanvasRenderingContext2D, g: Geometry, k: Float64Array, joined: Uint8Array, sides: readonly Float64Array[], y: (value: number) => number): void {
   context.lineJoin = 'round';
   context.beginPath();
   let pen = false;

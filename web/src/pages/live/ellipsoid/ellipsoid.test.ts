@@ -7,7 +7,7 @@ import { bandOf, estimatesOf } from './estimates';
 import { boxOf, pointAt, type Scene, type Way } from './plane_draw';
 
 function raw(values: readonly number[], first = 0): Series {
-  const lo = Float32Array.from(values);
+  const lo = Float64Array.from(values);
   return { k: Float64Array.from(values, (_, i) => first + i), lo, hi: lo, joined: Uint8Array.from(values, (_, i) => (i ? 1 : 0)) };
 }
 

@@ -41,17 +41,17 @@ export function estimatesOf(run: Pick<RunDetail, 'world'>, model: RunModel, lane
 export interface Band {
   k: Float64Array;
   joined: Uint8Array;
-  middle: Float32Array;
+  middle: Float64Array;
   /** Half widths: of the bounded part, and with two standard deviations of the random part on top. */
-  inner: Float32Array;
-  outer: Float32Array;
+  inner: Float64Array;
+  outer: Float64Array;
 }
 
 /** The estimate with its band, at the ticks of the estimate. A part that is not published counts as zero; one that is missing makes a gap. */
 export function bandOf(estimate: Series, shape: Series | null, covariance: Series | null): Band {
   const length = estimate.k.length;
-  const inner = new Float32Array(length);
-  const outer = new Float32Array(length);
+  const inner = new Float64Array(length);
+  const outer = new Float64Array(length);
   const at = (series: Series | null, cursor: { i: number }, k: number): number => {
     if (!series) return 0;
     while (cursor.i < series.k.length - 1 && series.k[cursor.i + 1]! <= k) cursor.i++;

@@ -8,8 +8,8 @@ import { gameOf, type Chooser } from './game';
 import { strategyAt } from './strategy';
 
 function series(k: number[], lo: number[], hi?: number[]): Series {
-  const low = Float32Array.from(lo);
-  return { k: Float64Array.from(k), lo: low, hi: hi ? Float32Array.from(hi) : low, joined: Uint8Array.from(k.map((_, i) => (i && k[i]! - k[i - 1]! === 1 ? 1 : 0))) };
+  const low = Float64Array.from(lo);
+  return { k: Float64Array.from(k), lo: low, hi: hi ? Float64Array.from(hi) : low, joined: Uint8Array.from(k.map((_, i) => (i && k[i]! - k[i - 1]! === 1 ? 1 : 0))) };
 }
 const cells = (codes: Series) => [...codes.lo].map((code) => (Number.isNaN(code) ? null : decode(code)));
 

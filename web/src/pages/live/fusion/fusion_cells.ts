@@ -47,7 +47,7 @@ export function fusionSeries(choice: Series, own: number, sensors: readonly (Ser
   const length = choice.k.length;
   if (!length) return emptySeries;
   const walkers = sensors.map((series) => (series ? new Walker(series) : null));
-  const code = new Float32Array(length).fill(NaN);
+  const code = new Float64Array(length).fill(NaN);
   for (let i = 0; i < length; i++) {
     const [lo, hi] = [choice.lo[i]!, choice.hi[i]!];
     if (Number.isNaN(hi)) continue;
@@ -78,7 +78,7 @@ export function columnSeries(codes: Series, from: number, width: number, columns
     cells.set(column, there ? joinedCell(there, here) : here);
   }
   const order = [...cells.keys()].sort((a, b) => a - b);
-  const lo = Float32Array.from(order, (column) => encode(cells.get(column)!));
+  const lo = Float64Array.from(order, (column) => encode(cells.get(column)!));
   return { k: Float64Array.from(order, (column) => from + column * width), lo, hi: lo, joined: new Uint8Array(order.length) };
 }
 

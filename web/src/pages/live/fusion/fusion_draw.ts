@@ -41,7 +41,7 @@ export function fusionRows(g: Geometry, rows: readonly FusionRow[], nodes: reado
   });
 }
 
-const none: Series = { k: new Float64Array(0), lo: new Float32Array(0), hi: new Float32Array(0), joined: new Uint8Array(0) };
+const none: Series = { k: new Float64Array(0), lo: new Float64Array(0), hi: new Float64Array(0), joined: new Uint8Array(0) };
 
 type Cell = ReturnType<RasterRow['cell']>;
 

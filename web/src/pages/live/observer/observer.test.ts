@@ -21,8 +21,8 @@ const fast = laneOf(model, 'intermediate_fast')!;
 const drawn = { lanes: model.lanes, chosen: fast, streamed: fast, truthWord: 'true' };
 
 function series(lo: number[], hi: number[] = lo, k = [...lo.keys()]): Series {
-  const low = Float32Array.from(lo);
-  return { k: Float64Array.from(k), lo: low, hi: lo === hi ? low : Float32Array.from(hi), joined: Uint8Array.from(lo, (_, i) => (i ? 1 : 0)) };
+  const low = Float64Array.from(lo);
+  return { k: Float64Array.from(k), lo: low, hi: lo === hi ? low : Float64Array.from(hi), joined: Uint8Array.from(lo, (_, i) => (i ? 1 : 0)) };
 }
 
 describe('subsystems', () => {

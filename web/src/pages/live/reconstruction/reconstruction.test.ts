@@ -8,8 +8,8 @@ import { stripBoxes, stripScale } from './strip_draw';
 import { tally, verdictOf, wrapSeries } from './tally';
 
 function series(k: number[], lo: number[], hi?: number[]): Series {
-  const low = Float32Array.from(lo);
-  return { k: Float64Array.from(k), lo: low, hi: hi ? Float32Array.from(hi) : low, joined: new Uint8Array(k.length).fill(1) };
+  const low = Float64Array.from(lo);
+  return { k: Float64Array.from(k), lo: low, hi: hi ? Float64Array.from(hi) : low, joined: new Uint8Array(k.length).fill(1) };
 }
 
 describe('a reconstructed entry', () => {

@@ -6,8 +6,8 @@ import { rowBoxes } from './schedule_draw';
 import { stretches } from './stretches';
 
 function series(k: number[], lo: number[], hi?: number[]): Series {
-  const low = Float32Array.from(lo);
-  return { k: Float64Array.from(k), lo: low, hi: hi ? Float32Array.from(hi) : low, joined: Uint8Array.from(k.map((_, i) => (i ? 1 : 0))) };
+  const low = Float64Array.from(lo);
+  return { k: Float64Array.from(k), lo: low, hi: hi ? Float64Array.from(hi) : low, joined: Uint8Array.from(k.map((_, i) => (i ? 1 : 0))) };
 }
 
 describe('the schedule of attacks on sensors', () => {

@@ -12,11 +12,11 @@ const none = { left: 0, right: 0, top: 0, bottom: 0 };
 const box: Box = { min: [-10, -10, 0], max: [10, 10, 8] };
 
 function series(k: number[], v: number[]): Series {
-  const values = Float32Array.from(v);
+  const values = Float64Array.from(v);
   return { k: Float64Array.from(k), lo: values, hi: values, joined: Uint8Array.from(k.map((_, i) => (i ? 1 : 0))) };
 }
 function track(points: readonly Point[]): Track {
-  const axis = (a: 0 | 1 | 2): Float32Array => Float32Array.from(points, (point) => point[a]);
+  const axis = (a: 0 | 1 | 2): Float64Array => Float64Array.from(points, (point) => point[a]);
   return { k: Float64Array.from(points.keys()), joined: Uint8Array.from(points, (_, i) => (i ? 1 : 0)), x: axis(0), y: axis(1), z: axis(2), length: points.length };
 }
 

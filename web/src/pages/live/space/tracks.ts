@@ -6,9 +6,9 @@ import type { Point } from './projection';
 export interface Track {
   k: Float64Array;
   joined: Uint8Array;
-  x: Float32Array;
-  y: Float32Array;
-  z: Float32Array;
+  x: Float64Array;
+  y: Float64Array;
+  z: Float64Array;
   length: number;
 }
 
@@ -20,7 +20,7 @@ export function readTrack(read: (signal: string) => Series, names: Names, from: 
   while (begin < most && x.k[begin]! < from) begin++;
   let end = most;
   while (end > begin && x.k[end - 1]! > to) end--;
-  const part = <T extends Float64Array | Float32Array | Uint8Array>(values: T): T => values.subarray(begin, end) as T;
+  const part = <T extends Float64Array | Uint8Array>(values: T): T => values.subarray(begin, end) as T;
   return { k: part(x.k), joined: part(x.joined), x: part(x.hi), y: part(y.hi), z: part(z.hi), length: end - begin };
 }
 

@@ -53,6 +53,6 @@ export class Evaluation {
 
 /** Columns of a record as a series for the pictures. Ticks that do not follow each other by `step` are not joined. */
 export function seriesOf(k: readonly number[], values: readonly number[], step = 1): Series {
-  const lo = Float32Array.from(values);
+  const lo = Float64Array.from(values);
   return { k: Float64Array.from(k), lo, hi: lo, joined: Uint8Array.from(k, (tick, i) => (i > 0 && tick - k[i - 1]! <= step ? 1 : 0)) };
 }
