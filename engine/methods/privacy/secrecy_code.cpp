@@ -2,12 +2,19 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <utility>
 
 #include "engine/linalg/small.hpp"
 
 namespace vigil::privacy {
 
 using Eigen::MatrixXd;
+
+namespace {
+
+constexpr double kSwallows = 1e9;
+
+}  // namespace
 
 // d = xhat - xe obeys d+ = A d + {missed} g with the correction g = K (innovation); the error is x~ + d.
 std::optional<MatrixXd> code_a_eavesdropper(const FusionModel& model, const StationaryFilters& filters,
@@ -42,6 +49,76 @@ std::optional<std::vector<MatrixXd>> code_l(const FusionModel& model, const Stat
     codes.push_back(Si.ldlt().solve(A.solve(Si)).transpose());
   }
   return codes;
+}
+
+std::optional<MatrixXd> code_l_state(const FusionModel& model) {
+  const auto S = state_covariance(model);
+  const Eigen::FullPivLU<MatrixXd> A(model.A);
+  if (!S || !A.isInvertible()) return std::nullopt;
+  return MatrixXd(S->ldlt().solve(A.solve(*S)).transpose());
+}
+
+CodeMemory::CodeMemory(MatrixXd Lc) : Lc_(std::move(Lc)), base_(Eigen::VectorXd::Zero(Lc_.rows())), next_(base_) {}
+
+void CodeMemory::advance() {
+  next_.noalias() = Lc_ * base_;
+  base_.swap(next_);
+  if (base_.norm() < kSwallows) return;
+  base_.setZero();
+  restarted_ = true;
+}
+
+const Eigen::VectorXd& CodeMemory::decode(const Eigen::VectorXd& message) {
+  base_ += message;
+  return base_;
+}
+
+// Y = (x, x~ of all sensors) obeys Y+ = Psi_Y Y + noise; a message is an image of Y and of Y a tick before.
+RecentMessages::RecentMessages(const FusionModel& model, const StationaryFilters& filters, const MatrixXd& S,
+                               const std::vector<MatrixXd>& Lc, int depth)
+    : states_(model.states()), depth_(depth), S_(S) {
+  const int n = model.states(), stacked = model.stacked(), all = n + stacked;
+  const MatrixXd chain = block_diagonal({model.A, block_diagonal(filters.Psi)});
+  MatrixXd law(all, all), estimates(stacked, all);
+  law << S, MatrixXd::Zero(n, stacked), MatrixXd::Zero(stacked, n), filters.P;
+  for (int at = n; at < all; at += n) {
+    law.block(at, 0, n, n) = filters.P.block(at - n, at - n, n, n);
+    law.block(0, at, n, n) = law.block(at, 0, n, n).transpose();
+  }
+  estimates << stack(n, model.count()), -MatrixXd::Identity(stacked, stacked);
+
+  const int ticks = depth + 1;
+  MatrixXd joint(ticks * all, ticks * all), messages = MatrixXd::Zero(depth * stacked, ticks * all);
+  for (int later = 0; later < ticks; ++later) {
+    MatrixXd cross = law;  // E[Y(t - later) Y(t - earlier)']
+    for (int earlier = later; earlier < ticks; ++earlier) {
+      joint.block(later * all, earlier * all, all, all) = cross;
+      joint.block(earlier * all, later * all, all, all) = cross.transpose();
+      cross = (chain * cross).eval();
+    }
+  }
+  for (int m = 0; m < depth; ++m) {
+    messages.block(m * stacked, m * all, stacked, all) = estimates;
+    messages.block(m * stacked, (m + 1) * all, stacked, all) = -block_diagonal(Lc) * estimates;
+  }
+  X_ = joint.topRows(n) * messages.transpose();
+  Z_ = messages * joint * messages.transpose();
+  symmetrise(Z_);
+}
+
+RecentMessages::Best RecentMessages::best(const std::vector<char>& heard) const {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t m = 0; m < heard.size(); ++m) {
+    if (!heard[m]) continue;
+    for (int j = 0; j < states_; ++j) rows.push_back(static_cast<Eigen::Index>(m) * states_ + j);
+  }
+  Best best{.gain = MatrixXd::Zero(states_, Z_.rows()), .trace = S_.trace()};
+  if (rows.empty()) return best;
+  const MatrixXd X = X_(Eigen::all, rows);
+  const MatrixXd gain = X * symmetric_pseudo_inverse(Z_(rows, rows));
+  best.gain(Eigen::all, rows) = gain;
+  best.trace -= gain.cwiseProduct(X).sum();
+  return best;
 }
 
 }  // namespace vigil::privacy
