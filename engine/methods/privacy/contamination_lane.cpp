@@ -130,9 +130,7 @@ class Contamination final : public Protection {
 
   /// This tick's set, by covariances alone, and the noise's null space.
   void choose(const PublicTick& tick) {
-    const ComponentSet& set =
-        linear_ ? choose_set(sets_, mode_, tick.nominal, tick.P, moment_.second()) : choose_worst_known(sets_, tick.P);
-    const VectorXd h = kept(set, n_ * count_);
+    const VectorXd h = kept(linear_ ? best_admissible(tick) : choose_worst_known(sets_, tick.P), n_ * count_);
     const bool same_space = tick.settled && chosen_settled_ && h == h_;
     h_ = h;
     chosen_settled_ = tick.settled;
