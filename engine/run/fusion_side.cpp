@@ -119,7 +119,11 @@ void FusionSide::listen(const FusionMethod& method, const Eigen::MatrixXd& messa
     hears_[node] = overheard[node] != 0 && method.protection().audible(i) ? 1 : 0;
     if (hears_[node] == 0) heard_.col(i).setConstant(kNone);
   }
-  for (Listener& one : listeners_) one.who->listen(method.public_tick(), heard_, hears_);
+  const Eigen::VectorXd* published = method.protection().published();
+  for (Listener& one : listeners_) {
+    if (published != nullptr) one.who->see(method.public_tick(), *published);
+    one.who->listen(method.public_tick(), heard_, hears_);
+  }
 }
 
 double FusionSide::square(const Eigen::VectorXd& truth, const double* estimate) const {
