@@ -43,9 +43,10 @@ class Contamination final : public Protection {
     if (!linear_ || !params.boolean("bounded_check")) return;
     check_ = bounded_check(fusion_model(knowledge));
     if (std::none_of(sets_.begin(), sets_.end(), [this](const ComponentSet& set) { return bounded(check_, set); }))
-      throw InputError("/m", fmt::format("m is {}, but whichever {} components are always contaminated, the legitimate "
-                                         "user's error grows without bound; expected another m or bounded_check false",
-                                         m_, m_));
+      throw InputError("/m",
+                       fmt::format("m is {}, and every set of so many contaminated components lets the legitimate "
+                                   "user's error grow without bound; expected another m, or bounded_check false",
+                                   m_));
   }
 
   std::unique_ptr<Protection> clone() const override { return std::make_unique<Contamination>(*this); }
