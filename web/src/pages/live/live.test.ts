@@ -15,7 +15,7 @@ const read = (query: string) => (key: string) => new URLSearchParams(query).get(
 
 describe('the view in the address', () => {
   it('comes back as it went', () => {
-    const view: ViewState = { range: { from: 12, to: 480 }, width: 300, cursor: 77, lane: 'naive_hold', node: '5', hidden: ['drop', 'clean'], signals: ['truth.x'], errors: 'nodes', curves: ['local', 'eve.zero'] };
+    const view: ViewState = { range: { from: 12, to: 480 }, width: 300, cursor: 77, lane: 'naive_hold', node: '5', hidden: ['drop', 'clean'], signals: ['truth.x'], errors: 'nodes', curves: ['local', 'other.zero'] };
     const query = new URLSearchParams();
     for (const [key, value] of Object.entries(viewQuery(view))) if (value !== null) query.set(key, String(value));
     expect(parseView((key) => query.get(key))).toEqual(view);

@@ -107,7 +107,7 @@ export interface Rows {
 const usualRows: Rows = { wide: [29, 47, 29], middle: [320, 320, 260] };
 const familyRows: Record<string, Rows> = {
   sparse: { wide: [1, 1, 1], middle: [400, 460, 300] },
-  privacy: { wide: [10, 11, 10], middle: [360, 360, 420, 400, 340] },
+  privacy: { wide: [9, 12, 9], middle: [360, 360, 420, 400, 340] },
   observer: { wide: [10, 9, 11], middle: [340, 340, 380, 320] },
 };
 

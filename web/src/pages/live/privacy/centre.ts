@@ -6,7 +6,7 @@ import type { LaneModel, RunModel } from '../model';
 export type Role = 'fused' | 'optimal' | 'local' | 'sent' | 'compensated' | 'eve';
 
 export interface Curve {
-  /** Role, with the eavesdropper's variant: "fused", "local", "eve.fusing". What is shown and hidden together. */
+  /** What is shown and hidden together: the role, or "eve.<variant>" of whom a mechanism is meant against, "other.<variant>" of the others. */
   id: string;
   role: Role;
   /** Of local, sent and compensated values. */
@@ -49,27 +49,26 @@ export function variantsOf(model: RunModel, lane: Pick<LaneModel, 'id'>): string
   return [...found];
 }
 
-function curve(model: RunModel, lane: string, role: Role, output: string, node: string | null, names = { square: 'square', trace: 'trace', estimate: 'estimate' }): Curve {
+function curve(model: RunModel, lane: string, id: string, role: Role, output: string, node: string | null, names = { square: 'square', trace: 'trace', estimate: 'estimate' }): Curve {
   const head = `lane.${lane}.${output}.`;
-  const variant = role === 'eve' ? output.slice('eve.'.length) : null;
-  return { id: variant === null ? role : output, role, node, variant, square: known(model, head + names.square), trace: known(model, head + names.trace), estimate: `${head}${names.estimate}.` };
+  return { id, role, node, variant: role === 'eve' ? output.slice('eve.'.length) : null, square: known(model, head + names.square), trace: known(model, head + names.trace), estimate: `${head}${names.estimate}.` };
 }
 
 /** All whose estimates a lane tells, the legitimate user first. */
 export function curvesOf(model: RunModel, lane: Pick<LaneModel, 'id'>): Curve[] {
-  const of = (role: Role, output: string, node: string | null = null, names?: { square: string; trace: string; estimate: string }): Curve => curve(model, lane.id, role, output, node, names);
+  const of = (role: Role, output: string, node: string | null = null, names?: { square: string; trace: string; estimate: string }): Curve => curve(model, lane.id, role, role, output, node, names);
   const kinds = [
     ['local', { square: 'square', trace: 'trace', estimate: 'estimate' }],
     ['sent', { square: 'sent_square', trace: '', estimate: 'sent' }],
     ['compensated', { square: 'compensated_square', trace: 'compensated_trace', estimate: 'compensated' }],
   ] as const;
   const nodes = kinds.flatMap(([role, names]) => model.nodes.map(({ id }) => of(role, id, id, names)));
-  const all = [of('fused', 'fused'), of('optimal', 'optimal'), ...nodes, ...variantsOf(model, lane).map((variant) => of('eve', `eve.${variant}`))];
+  const all = [of('fused', 'fused'), of('optimal', 'optimal'), ...nodes, ...variantsOf(model, lane).map((variant, i) => curve(model, lane.id, `${i ? 'other' : 'eve'}.${variant}`, 'eve', `eve.${variant}`, null))];
   return all.filter(({ square, estimate }) => square !== null || model.signals.some(({ name }) => name.startsWith(estimate)));
 }
 
 /** What is not drawn until it is asked for. */
-const quiet: readonly string[] = ['local', 'sent', 'eve.zero'];
+const quiet: readonly string[] = ['local', 'sent', 'other.fusing', 'other.differencing', 'other.zero'];
 
 /** Whether a curve is drawn; `turned` are those that were switched from how they begin. */
 export function isShown(turned: readonly string[], id: string): boolean {
@@ -94,9 +93,4 @@ export function componentsOf(model: RunModel): { name: string; unit: string }[] 
 export function protectionOf(run: Pick<RunDetail, 'document'> | null, lane: string): string {
   const own = (run?.document?.lanes as Record<string, { protection?: { type?: unknown } } | undefined> | undefined)?.[lane];
   return typeof own?.protection?.type === 'string' ? own.protection.type : 'none';
-}
-
-/** Plant's type, as the document says. */
-export function plantOf(run: Pick<RunDetail, 'document'> | null): string {
-  return String((run?.document?.plant as { type?: unknown } | undefined)?.type ?? '');
 }

@@ -3,7 +3,7 @@ import type { RunDetail } from '../../../api/types';
 import { valueAt } from '../../../data/series';
 import type { Source } from '../../../data/source';
 import type { LaneModel, RunModel } from '../model';
-import { known, plantOf, protectionOf, squareOf, variantsOf } from './centre';
+import { known, protectionOf, squareOf, variantsOf } from './centre';
 
 /** Bounds of the ranks, (4-34). */
 export const rankBounds = [1, 2, 4, 8] as const;
@@ -66,18 +66,39 @@ export function readingsAt(model: RunModel, source: Pick<Source, 'near'>, k: num
 export type PaperIndex = number | 'infinite';
 
 const printed: Readonly<Record<string, PaperIndex>> = { contamination: 1.23, two_step: 'infinite' };
+/** The example that the numbers are printed for. */
+const engine = 'privacy-engine';
 const printedCodeA: PaperIndex = 3.66;
 
-export function paperIndex(run: Pick<RunDetail, 'document'> | null, lane: string): PaperIndex | null {
-  if (!plantOf(run).includes('engine')) return null;
+export function paperIndex(run: Pick<RunDetail, 'document' | 'scenario'> | null, lane: string): PaperIndex | null {
+  if (run?.scenario !== engine) return null;
   const type = protectionOf(run, lane);
   if (type !== 'secrecy_code') return printed[type] ?? null;
   const own = (run?.document?.lanes as Record<string, { protection?: { params?: { code?: unknown } } } | undefined> | undefined)?.[lane];
   return (own?.protection?.params?.code ?? 'A') === 'A' ? printedCodeA : null;
 }
 
-/** The scale that every gauge shares: all ranks and every value, negative ones too. */
-export function gaugeScale(readings: readonly LaneReading[]): { lo: number; hi: number } {
+export interface GaugeScale {
+  lo: number;
+  hi: number;
+}
+
+/** The scale that every gauge shares: every rank is equally wide, and holds every value, negative ones too. */
+export function gaugeScale(readings: readonly LaneReading[]): GaugeScale {
   const values = readings.flatMap(({ main, others }) => [main, ...others.map((one) => one.reading)]).flatMap((one) => (one && Number.isFinite(one.value) ? [one.value] : []));
-  return { lo: Math.min(-1, Math.floor(Math.min(...values, 0) - 0.2)), hi: Math.max(10, Math.ceil(Math.max(...values, 0) + 0.5)) };
+  return { lo: Math.min(-1, Math.floor(Math.min(...values, 0) - 0.2)), hi: Math.max(16, Math.ceil(Math.max(...values, 0) + 0.5)) };
+}
+
+/** Edges of the ranks on a scale, first and last its ends. */
+export function rankEdges({ lo, hi }: GaugeScale): number[] {
+  return [lo, ...rankBounds, hi];
+}
+
+/** Where an index is on its scale, 0 to 1. */
+export function gaugePlace(scale: GaugeScale, index: number): number {
+  const edges = rankEdges(scale);
+  const value = Math.min(scale.hi, Math.max(scale.lo, index));
+  const rank = rankOf(value);
+  const [from, to] = [edges[rank]!, edges[rank + 1]!];
+  return (rank + (value - from) / (to - from)) / (edges.length - 1);
 }

@@ -117,6 +117,8 @@ interface Key {
   id: string;
   word: string;
   look: Look;
+  /** Signals of the squared errors, one a node. */
+  squares: string[];
 }
 
 /** The kinds of curves that lanes have, one entry each: what the keys beside a chart switch. */
@@ -125,8 +127,10 @@ export function curveKeys(model: RunModel, lanes: readonly LaneModel[], roles: r
   const seen = new Map<string, Key>();
   for (const lane of lanes) {
     for (const curve of curvesOf(model, lane)) {
-      if (!roles.includes(curve.role) || seen.has(curve.id)) continue;
-      seen.set(curve.id, { id: curve.id, word: curveWord({ ...curve, node: null }), look: lookOf(curve, lane, nodes) });
+      if (!roles.includes(curve.role)) continue;
+      const key = seen.get(curve.id) ?? { id: curve.id, word: curveWord({ ...curve, node: null }), look: lookOf(curve, lane, nodes), squares: [] };
+      if (curve.square) key.squares.push(curve.square);
+      seen.set(curve.id, key);
     }
   }
   return [...seen.values()];

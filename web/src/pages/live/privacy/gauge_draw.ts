@@ -2,9 +2,8 @@
 import { axisFont } from '../../../chart/axes';
 import { colour } from '../../../chart/colours';
 import { drawMark, nodeLook } from '../../../chart/marks';
-import { ticks } from '../../../chart/scale';
 import { formatNumber } from '../../../i18n/format.svelte';
-import { gaugeScale, rankBounds, type LaneReading, type PaperIndex } from './confidentiality';
+import { gaugePlace, gaugeScale, rankBounds, rankEdges, type GaugeScale, type LaneReading, type PaperIndex } from './confidentiality';
 
 export interface GaugeRow {
   reading: LaneReading;
@@ -12,11 +11,10 @@ export interface GaugeRow {
   paper: PaperIndex | null;
 }
 
-/** px for names at the left and numbers at the right. */
-export function gaugeRoom(width: number): { left: number; right: number } {
-  return { left: Math.min(130, Math.round(width * 0.3)), right: 52 };
-}
-const top = 15;
+/** px for numbers at the right. */
+const right = 46;
+const nameFont = '11px Inter, sans-serif';
+const top = 26;
 const bottom = 15;
 
 const letters: Readonly<Record<string, string>> = { fusing: 'F', differencing: 'D', window_mean: 'W', zero: 'Z' };
@@ -27,15 +25,16 @@ export function letterOf(variant: string): string {
 
 export function drawGauge(context: CanvasRenderingContext2D, width: number, height: number, rows: readonly GaugeRow[], ranks: readonly string[]): void {
   const scale = gaugeScale(rows.map(({ reading }) => reading));
-  const { left, right } = gaugeRoom(width);
-  const x = (value: number): number => left + ((Math.min(scale.hi, Math.max(scale.lo, value)) - scale.lo) / (scale.hi - scale.lo)) * (width - left - right);
+  context.font = nameFont;
+  const left = Math.min(0.34 * width, 24 + Math.max(0, ...rows.map(({ name }) => context.measureText(name).width)));
+  const x = (index: number): number => left + gaugePlace(scale, index) * (width - left - right);
   drawRanks(context, height, ranks, scale, x);
   const each = (height - top - bottom) / Math.max(1, rows.length);
-  rows.forEach((row, i) => drawRow(context, row, i, { y: top + (i + 0.5) * each, each, width, x, hi: scale.hi }));
+  rows.forEach((row, i) => drawRow(context, row, i, { y: top + (i + 0.5) * each, each, left, width, x }));
 }
 
-function drawRanks(context: CanvasRenderingContext2D, height: number, ranks: readonly string[], scale: { lo: number; hi: number }, x: (value: number) => number): void {
-  const edges = [scale.lo, ...rankBounds, scale.hi];
+function drawRanks(context: CanvasRenderingContext2D, height: number, ranks: readonly string[], scale: GaugeScale, x: (value: number) => number): void {
+  const edges = rankEdges(scale);
   context.textBaseline = 'alphabetic';
   ranks.forEach((rank, i) => {
     const [from, to] = [x(edges[i]!), x(edges[i + 1]!)];
@@ -46,11 +45,11 @@ function drawRanks(context: CanvasRenderingContext2D, height: number, ranks: rea
     context.font = '10px Inter, sans-serif';
     context.fillStyle = colour('muted');
     context.textAlign = 'center';
-    // A rank's word stands where there is room for it; the readings beside the picture have all of them.
-    if (context.measureText(rank).width < to - from - 2) context.fillText(rank, (from + to) / 2, top - 4);
+    rank.split(' ').toReversed().forEach((word, line) => context.fillText(word, (from + to) / 2, top - 4 - 11 * line, to - from));
   });
   context.font = axisFont;
-  for (const value of new Set([...ticks(scale.lo, scale.hi, 4).filter((one) => one <= 0 || one > 8), 0, ...rankBounds])) {
+  for (const value of [...new Set([scale.lo, 0, ...rankBounds, scale.hi])]) {
+    context.fillStyle = colour('muted');
     context.fillText(String(value), x(value), height - 3);
     context.strokeStyle = colour(value === 0 ? 'ink' : 'line');
     context.lineWidth = 1;
@@ -64,24 +63,23 @@ function drawRanks(context: CanvasRenderingContext2D, height: number, ranks: rea
 interface Place {
   y: number;
   each: number;
+  left: number;
   width: number;
   x: (value: number) => number;
-  hi: number;
 }
 
-function drawRow(context: CanvasRenderingContext2D, { reading, name, paper }: GaugeRow, index: number, { y, each, width, x, hi }: Place): void {
+function drawRow(context: CanvasRenderingContext2D, { reading, name, paper }: GaugeRow, index: number, { y, each, left, width, x }: Place): void {
   const { lane, main, others } = reading;
-  const { left, right } = gaugeRoom(width);
   context.textBaseline = 'middle';
   context.textAlign = 'left';
-  context.font = '11px Inter, sans-serif';
+  context.font = nameFont;
   context.fillStyle = colour('ink');
   context.fillText(name, 14, y, left - 22);
   const { shape } = nodeLook(index);
   context.fillStyle = colour(lane.token);
   context.strokeStyle = colour('surface');
   drawMark(context, shape, 6, y, 4.5);
-  if (paper !== null) drawPaper(context, paper, y, Math.min(7, each / 2 - 1), { x, edge: width - right, hi });
+  if (paper !== null) drawPaper(context, paper, y, Math.min(7, each / 2 - 1), { x, edge: width - right });
   for (const { variant, reading: other } of others) drawOther(context, letterOf(variant), x(other.value), y, lane.token);
   if (!main) return;
   context.fillStyle = colour(lane.token);
@@ -108,12 +106,12 @@ function drawOther(context: CanvasRenderingContext2D, letter: string, at: number
 }
 
 /** A tick where the paper's number is; where it says infinite an arrow out of the picture, and no number. */
-function drawPaper(context: CanvasRenderingContext2D, paper: PaperIndex, y: number, half: number, { x, edge, hi }: { x: (value: number) => number; edge: number; hi: number }): void {
+function drawPaper(context: CanvasRenderingContext2D, paper: PaperIndex, y: number, half: number, { x, edge }: { x: (value: number) => number; edge: number }): void {
   context.strokeStyle = context.fillStyle = colour('ink');
   context.lineWidth = 2;
   context.beginPath();
   if (paper === 'infinite') {
-    const from = x(hi - 1.2);
+    const from = edge - 24;
     context.moveTo(from, y);
     context.lineTo(edge - 2, y);
     context.stroke();

@@ -7,14 +7,14 @@ import { laneOf, makeModel } from '../model';
 import { panelsOf } from '../panels';
 import { withCentre } from '../plane_draw';
 import { componentsOf, curvesOf, hasCentre, isShown, planeOf, variantsOf } from './centre';
-import { gaugeScale, paperIndex, rankOf, readingsAt } from './confidentiality';
+import { gaugePlace, gaugeScale, paperIndex, rankOf, readingsAt } from './confidentiality';
 import { clipped, curveKeys, eveSquares, laneSquares, lookOf, mostDrawn, trackLines, userSquares } from './curves';
 import { designOf } from './design';
 import { run, signals, surfaces, twoStep } from './fixture';
 import { guaranteedLanes, rowsOf, sampledShare, viewWord } from './guarantee';
 import { contaminatedOf, linksOf } from './messages';
 import { placesOf } from './network_draw';
-import { normalDensity, wilson } from './normal';
+import { independent, normalDensity, wilson } from './normal';
 import { sceneOf } from './releases_draw';
 import { sentencesOf, type LaneFacts } from './sentences';
 import { falls } from './surfaces_draw';
@@ -49,14 +49,14 @@ describe('a fusion centre', () => {
 
   it('has curves of the user, what is best, the nodes and all who listen', () => {
     expect(curvesOf(model, lane('contamination')).map(({ id, node }) => (node === null ? id : `${id} ${node}`))).toEqual([
-      'fused', 'optimal', 'local 1', 'local 2', 'sent 1', 'sent 2', 'compensated 1', 'compensated 2', 'eve.fusing', 'eve.zero',
+      'fused', 'optimal', 'local 1', 'local 2', 'sent 1', 'sent 2', 'compensated 1', 'compensated 2', 'eve.fusing', 'other.zero',
     ]);
     expect(variantsOf(model, lane('two_step'))).toEqual(['differencing', 'window_mean', 'zero']);
     expect(curvesOf(model, lane('two_step')).find(({ id }) => id === 'sent')).toMatchObject({ square: 'lane.two_step.1.sent_square', trace: null });
   });
 
   it('shows a curve or not, and the other way round once it is turned', () => {
-    expect([isShown([], 'fused'), isShown(['fused'], 'fused'), isShown([], 'eve.zero'), isShown(['eve.zero'], 'eve.zero')]).toEqual([true, false, false, true]);
+    expect([isShown([], 'fused'), isShown(['fused'], 'fused'), isShown([], 'other.zero'), isShown(['other.zero'], 'other.zero')]).toEqual([true, false, false, true]);
   });
 
   it('knows a plane by its components, and positions before other components', () => {
@@ -104,7 +104,7 @@ describe('lines', () => {
   });
 
   it('of all eavesdroppers name whom they are of', () => {
-    const lines = eveSquares(model, [lane('two_step')], null, { turned: ['eve.zero'], traces: false });
+    const lines = eveSquares(model, [lane('two_step')], null, { turned: ['other.zero'], traces: false });
     expect(lines.map(({ name }) => name)).toEqual(['two step, differencing', 'two step, window mean', 'two step, zero estimate']);
     expect(new Set(lines.map(({ dash, width }) => `${dash.join()} ${width}`)).size).toBe(3);
   });
@@ -117,7 +117,7 @@ describe('lines', () => {
 
   it('are keyed once a kind, over all lanes where asked to', () => {
     expect(curveKeys(model, [lane('contamination')], ['fused', 'sent']).map(({ id }) => id)).toEqual(['fused', 'sent']);
-    expect(curveKeys(model, model.lanes, ['eve']).map(({ id }) => id)).toEqual(['eve.fusing', 'eve.zero', 'eve.differencing', 'eve.window_mean']);
+    expect(curveKeys(model, model.lanes, ['eve']).map(({ id }) => id)).toEqual(['eve.fusing', 'other.zero', 'eve.differencing', 'other.window_mean']);
   });
 
   it('stay on the picture beyond 1e150, and what is below stays as it is', () => {
@@ -138,21 +138,23 @@ describe('the confidentiality index', () => {
     const readings = readingsAt(model, source({ 'lane.two_step.ci': 4.81, 'lane.two_step.rank': 3, 'lane.two_step.eve.window_mean.ci': 0.93, 'lane.unprotected.ci': NaN, 'lane.unprotected.ci_mse': -0.25 }), 0);
     expect(readings.map(({ main }) => main)).toEqual([{ value: -0.25, measure: 'errors' }, { value: 4.81, measure: 'covariance' }, null, null]);
     expect(readings[1]).toMatchObject({ rank: 3, variant: 'differencing', others: [{ variant: 'window_mean', reading: { value: 0.93 } }] });
-    expect(gaugeScale(readings)).toEqual({ lo: -1, hi: 10 });
+    expect(gaugeScale(readings)).toEqual({ lo: -1, hi: 16 });
   });
 
   it('has a scale that holds negative and large values', () => {
     const of = (value: number) => ({ ...readingsAt(model, source({ 'lane.unprotected.ci': value }), 0)[0]! });
     expect(gaugeScale([of(-3.4)]).lo).toBe(-4);
-    expect(gaugeScale([of(16.2)]).hi).toBe(17);
-    expect(gaugeScale([])).toEqual({ lo: -1, hi: 10 });
+    expect(gaugeScale([of(19.6)]).hi).toBe(21);
+    expect(gaugeScale([])).toEqual({ lo: -1, hi: 16 });
+    // Every rank is a fifth of the width, whatever it spans.
+    expect([-4, 1, 2, 3, 4, 8, 16, 99, -99].map((index) => gaugePlace({ lo: -4, hi: 16 }, index))).toEqual([0, 0.2, 0.4, 0.5, 0.6, 0.8, 1, 1, 0]);
   });
 
   it('is printed by the paper for its own plant only', () => {
     expect(model.lanes.map(({ id }) => paperIndex(run, id))).toEqual([null, 'infinite', 1.23, 3.66]);
-    const other = { document: { ...run.document, plant: { type: 'robot' } } };
+    const other = { ...run, scenario: 'privacy-turn' };
     expect(paperIndex(other, 'two_step')).toBeNull();
-    const codeL = { document: { ...run.document, lanes: { code: { protection: { type: 'secrecy_code', params: { code: 'L' } } } } } };
+    const codeL = { ...run, document: { ...run.document, lanes: { code: { protection: { type: 'secrecy_code', params: { code: 'L' } } } } } };
     expect(paperIndex(codeL, 'code')).toBeNull();
   });
 });
@@ -212,7 +214,7 @@ describe('the guarantee', () => {
   });
 
   it('counts the losses beyond epsilon, leaving out what is missing', () => {
-    const share = sampledShare([1, 0.2, NaN, 0.9, 0.1], Math.LN2)!;
+    const share = sampledShare([NaN, 1, 0.2, NaN, 0.9, 0.1], Math.LN2)!;
     expect([share.hits, share.n, share.share]).toEqual([2, 4, 0.5]);
     expect(sampledShare([], 1)).toBeNull();
     expect(sampledShare([1], null)).toBeNull();
@@ -223,6 +225,21 @@ describe('the guarantee', () => {
     expect([lo, hi].map((value) => Number(value.toFixed(4)))).toEqual([0.0552, 0.1744]);
     expect(wilson(0, 20)!.lo).toBe(0);
     expect(wilson(20, 20)!.hi).toBe(1);
+  });
+
+  it('counts ticks that share noise as fewer: the interval is as wide as their correlation asks', () => {
+    // Every loss ten times in a row: a tenth as many independent ones.
+    const noise = (i: number): number => ((Math.imul(i + 1, 0x9e3779b1) >>> 8) % 1000) / 1000;
+    const apart = Array.from({ length: 2000 }, (_, i) => noise(i));
+    const together = Array.from({ length: 2000 }, (_, i) => noise(Math.floor(i / 10)));
+    expect(independent(apart)).toBeGreaterThan(1000);
+    expect(independent(together)).toBeGreaterThan(100);
+    expect(independent(together)).toBeLessThan(400);
+    const [a, b] = [sampledShare(apart, 0.5)!, sampledShare(together, 0.5)!];
+    expect(b.hi - b.lo).toBeGreaterThan(2 * (a.hi - a.lo));
+    expect(independent([1, 1, 1])).toBe(1);
+    expect(independent([2])).toBe(1);
+    expect(independent([])).toBe(0);
   });
 
   it('has words for its observers, and the name itself for others', () => {
