@@ -16,7 +16,8 @@ constexpr double kSettled = 1e-12;  // relative
 
 }  // namespace
 
-void to_turn_of(const VectorXd& anchor, const std::vector<double>& periods, Eigen::Ref<VectorXd> estimate) {
+void to_turn_of(const Eigen::Ref<const VectorXd>& anchor, const std::vector<double>& periods,
+                Eigen::Ref<VectorXd> estimate) {
   for (std::size_t c = 0; c < periods.size(); ++c) {
     const auto at = static_cast<Eigen::Index>(c);
     const double off = estimate[at] - anchor[at];

@@ -13,7 +13,7 @@
 namespace vigil::privacy {
 
 /// Brings an estimate to the turn of `anchor` where a state is an angle (period not 0); both n long.
-void to_turn_of(const Eigen::VectorXd& anchor, const std::vector<double>& periods,
+void to_turn_of(const Eigen::Ref<const Eigen::VectorXd>& anchor, const std::vector<double>& periods,
                 Eigen::Ref<Eigen::VectorXd> estimate);
 /// Of the plant's states, in their order.
 std::vector<double> periods_of(const Plant& plant);
