@@ -183,6 +183,7 @@ const Registration<ProtectionMake> registration({
         {.name = "Q_a",
          .fallback = 1.0,
          .minimum = 0,
+         .maximum = 1e12,
          .symbol = "Q_a",
          .meaning = {"Variance of the white noise before it is projected", "投影前白噪声的方差"}},
     }),

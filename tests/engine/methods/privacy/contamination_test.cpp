@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "engine/core/input_error.hpp"
@@ -140,6 +141,36 @@ TEST(PrivacyContamination, TheNormIsAHeuristic) {
   const Tick exact = plan(model, component_sets(6, 3), Selection::exact, 1).back();
   EXPECT_EQ(exact.h, kept({1, 4, 5}, 6));
   EXPECT_NEAR(exact.Pe.trace(), 0.2709, 6e-5);
+}
+
+// Where a component is contaminated at both sensors the same prediction stands twice, so that S is singular.
+TEST(PrivacyContamination, TheUsersWeightsSumToOneHoweverSingularItsCovariance) {
+  const FusionModel robot = linear_robot(), engine = engine_model();
+  for (const auto& [model, ticks] :
+       {std::pair{robot, robot_plan(3)}, std::pair{engine, plan(engine, component_sets(6, 5), Selection::norm, 50)}}) {
+    const MatrixXd e = stack(model.states(), 2);
+    for (const Tick& tick : ticks) {
+      EXPECT_TRUE(fuse(tick.user.S, model.states()).by_rule);
+      EXPECT_LE((tick.user.Wf * e - e.topRows(model.states())).norm(), 1e-9);
+      EXPECT_LE((tick.nominal.W * e - e.topRows(model.states())).norm(), 1e-9);
+      for (const MatrixXd& P : {tick.user.S, tick.P, tick.user.P}) {
+        const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(P, Eigen::EigenvaluesOnly);
+        EXPECT_GE(eigen.eigenvalues()[0], -1e-12 * P.norm());
+      }
+    }
+  }
+}
+
+TEST(PrivacyContamination, NoiseCountsOnlyInWhatIsKept) {
+  const Tick tick = robot_plan(3).back();
+  const Foresight none{.P = MatrixXd::Identity(2, 2), .X = MatrixXd::Zero(4, 2)};
+  const MatrixXd noise = Eigen::Vector4d(1, 2, 3, 4).asDiagonal();
+  Legitimate user;
+  take_in(tick.P, none, VectorXd::Ones(4), noise, user);
+  EXPECT_LE((user.P - fuse(tick.P + noise, 2).P).norm(), 1e-14);
+  EXPECT_LE((user.X - user.Wf * tick.P).norm(), 1e-14);
+  take_in(tick.P, none, kept({2, 3}, 4), noise, user);
+  EXPECT_EQ(MatrixXd(user.S.bottomRightCorner(2, 2)), none.P);
 }
 
 TEST(PrivacyContamination, KeepsTheWorstKnownComponents) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/input_error.hpp"
+#include "engine/methods/privacy/centre.hpp"
 #include "engine/methods/privacy/lmv_fusion.hpp"
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/methods/privacy/fusion_rig.hpp"
@@ -11,8 +12,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using privacy::FusionModel;
-using rig::Sample;
 
 struct Traces {
   double legitimate = 0, optimal = 0, eavesdropper = 0, compensated[2] = {}, local[2] = {};
@@ -114,131 +113,47 @@ TEST(FusionLane, TheWeightsOfACommonStartAreEqual) {
   EXPECT_LE((tick.nominal.P - known.P0).norm(), 1e-12);
 }
 
-/// Squared errors of many runs of the linear robot at some ticks, against the traces of those ticks.
-struct Curves {
-  Sample legitimate, optimal, eavesdropper;
-  Traces expected;
-};
-Curves simulate(const FusionModel& model, const char* filter, const std::string& protection, const Json& params,
-                std::int64_t at, int runs, const rig::Events& events) {
-  Curves curves;
-  for (int run = 1; run <= runs; ++run) {
-    Knowledge known = rig::knowledge_of_model(model);
-    const auto seed = static_cast<std::uint64_t>(run);
-    known.seed = seed;
-    const VectorXd start = rig::start(known, seed);
-    if (!protection.empty()) known.protection = rig::protect(known, protection, params);
-    const auto lane = rig::fusion_lane(known, filter);
-    const auto eve = lane->fusion()->protection().eavesdropper("fusing");
-    const std::vector<char> heard(2, 1);
-    rig::drive(*lane, known, start, at, seed, events,
-               [&](std::int64_t k, const VectorXd& truth, const Method& method, const MatrixXd& sent) {
-                 const FusionMethod& fusion = *method.fusion();
-                 eve->listen(fusion.public_tick(), sent, heard);
-                 if (k < at) return;
-                 const auto n = static_cast<int>(truth.size());
-                 curves.legitimate.add((truth - rig::mean(method, 2, n)).squaredNorm());
-                 curves.optimal.add((truth - fusion.optimal()).squaredNorm());
-                 curves.eavesdropper.add((truth - eve->estimate()).squaredNorm());
-                 curves.expected = {fusion.legitimate_trace(),
-                                    fusion.optimal_trace(),
-                                    fusion.protection().eavesdropper_trace(fusion.public_tick(), "fusing"),
-                                    {},
-                                    {}};
-               });
-  }
-  return curves;
-}
-void expect_agreement(const Curves& curves) {
-  EXPECT_NEAR(curves.legitimate.mean(), curves.expected.legitimate, 4 * curves.legitimate.error());
-  EXPECT_NEAR(curves.optimal.mean(), curves.expected.optimal, 4 * curves.optimal.error());
-  EXPECT_NEAR(curves.eavesdropper.mean(), curves.expected.eavesdropper, 4 * curves.eavesdropper.error());
+TEST(FusionLane, SeparateGuessesHaveSeparateErrors) {
+  Knowledge known = rig::knowledge_of_model(privacy::linear_robot());
+  known.estimates.col(1) += Eigen::Vector2d(0.1, -0.2);
+  const auto lane = rig::fusion_lane(known, "time_varying");
+  const MatrixXd& P = lane->fusion()->public_tick().P;
+  EXPECT_EQ(MatrixXd(P.topRightCorner(2, 2)), MatrixXd::Zero(2, 2));
+  EXPECT_NEAR(lane->fusion()->optimal_trace(), known.P0.trace() / 2, 1e-12);
 }
 
-TEST(FusionLane, ManyRunsAgreeWithTheTraces) {
-  expect_agreement(simulate(privacy::linear_robot(), "time_varying", "contamination", {{"m", 3}}, 30, 2000, {}));
-  expect_agreement(simulate(privacy::engine_model(), "stationary", "contamination", {{"m", 5}}, 8, 2000, {}));
-  expect_agreement(simulate(privacy::engine_model(), "stationary", "contamination", {{"m", 4}}, 20, 2000, {}));
-}
-
-// Lost messages, contaminated or not, are replaced by the prediction, and the covariance knows it.
-TEST(FusionLane, LostMessagesArePredicted) {
-  rig::Events lossy;
-  lossy.lost = [](std::int64_t k, int node) { return (k * (3 + node) + k / 2 + node) % 5 < 2 || (k > 4 && k < 8); };
-  for (const std::int64_t at : {0, 7, 12}) {
-    for (const char* protection : {"", "contamination"}) {
-      const Curves robot =
-          simulate(privacy::linear_robot(), "time_varying", protection, Json::object(), at, 1500, lossy);
-      EXPECT_NEAR(robot.legitimate.mean(), robot.expected.legitimate, 4 * robot.legitimate.error()) << at << protection;
-      const Curves engine =
-          simulate(privacy::engine_model(), "stationary", protection, Json::object(), at, 1500, lossy);
-      EXPECT_NEAR(engine.legitimate.mean(), engine.expected.legitimate, 4 * engine.legitimate.error())
-          << at << protection;
-      if (at == 7) {
-        EXPECT_GT(engine.expected.legitimate, 1.5 * engine.expected.optimal);
-      }
+TEST(FusionLane, ACopyGoesOnAsTheLaneDoes) {
+  Knowledge known = rig::knowledge_of_robot();
+  const VectorXd start = rig::start(known, 2);
+  known.protection = rig::protect(known, "contamination", {{"m", 4}});
+  const auto lane = rig::fusion_lane(known, "extended");
+  std::unique_ptr<Method> copy;
+  std::vector<Delivery> inbox(2, {.lost = false, .flagged = false, .payload = VectorXd::Zero(3)});
+  FaultTable faults;
+  const auto tick = [&](Method& method, const Readings& readings) {
+    method.predict(VectorXd(0), faults);
+    method.measure(readings, faults);
+    for (int i = 0; i < 2; ++i) method.send(i, inbox[static_cast<std::size_t>(i)].payload);
+    method.update(readings, inbox, faults);
+    return rig::mean(method, 2, 3);
+  };
+  rig::drive(*lane, known, start, 9, 2, {}, [&](std::int64_t k, const VectorXd& truth, const Method&, const MatrixXd&) {
+    if (k < 9) return;
+    copy = lane->clone();
+    for (std::int64_t later = 10; later < 14; ++later) {
+      const Readings readings = rig::readings_at(known, truth, 2, later);
+      EXPECT_EQ(tick(*lane, readings), tick(*copy, readings));
+      EXPECT_EQ(inbox[0].payload.size(), 3);
     }
-  }
+  });
+  EXPECT_EQ(copy->fusion()->optimal(), lane->fusion()->optimal());
 }
 
-// A sensor that gives nothing predicts; a stationary filter keeps its gain, and its covariance is then the real one.
-TEST(FusionLane, JammedSensorsPredict) {
-  rig::Events jam;
-  jam.jammed = [](std::int64_t k, int node) { return node == 0 ? k > 5 && k < 12 : k == 9; };
-  for (const std::int64_t at : {9, 14}) {
-    expect_agreement(simulate(privacy::engine_model(), "stationary", "", Json::object(), at, 2000, jam));
-    expect_agreement(simulate(privacy::linear_robot(), "time_varying", "", Json::object(), at, 2000, jam));
-  }
-  const auto settled = traces_of(rig::knowledge_of_model(privacy::engine_model()), "stationary", "", {}, 1);
-  const Curves after = simulate(privacy::engine_model(), "stationary", "", Json::object(), 700, 1, jam);
-  expect_near(after.expected.optimal, settled.back().optimal, 1e-9);
-}
-
-/// Averages over ticks 11 to 100 and over runs.
-struct RobotErrors {
-  double optimal = 0, legitimate = 0, eavesdropper = 0, compensated[2] = {};
-};
-RobotErrors robot_errors(int m, int runs) {
-  RobotErrors errors;
-  for (int run = 1; run <= runs; ++run) {
-    Knowledge known = rig::knowledge_of_robot();
-    const auto seed = static_cast<std::uint64_t>(run);
-    known.seed = seed;
-    const VectorXd start = rig::start(known, seed);
-    known.protection = rig::protect(known, "contamination", {{"m", m}});
-    const auto lane = rig::fusion_lane(known, "extended");
-    const auto eve = lane->fusion()->protection().eavesdropper("fusing");
-    const std::vector<char> heard(2, 1);
-    rig::drive(*lane, known, start, 100, seed, {},
-               [&](std::int64_t k, const VectorXd& truth, const Method& method, const MatrixXd& sent) {
-                 const FusionMethod& fusion = *method.fusion();
-                 eve->listen(fusion.public_tick(), sent, heard);
-                 if (k < 11) return;
-                 const double share = 1.0 / (90 * runs);
-                 errors.optimal += share * (truth - fusion.optimal()).squaredNorm();
-                 errors.legitimate += share * (truth - rig::mean(method, 2, 3)).squaredNorm();
-                 errors.eavesdropper += share * (truth - eve->estimate()).squaredNorm();
-                 for (int i = 0; i < 2; ++i)
-                   errors.compensated[i] +=
-                       share * (truth - Eigen::Map<const VectorXd>(fusion.compensated(i), 3)).squaredNorm();
-               });
-  }
-  return errors;
-}
-
-TEST(FusionLane, TheNonlinearRobot) {
-  const RobotErrors four = robot_errors(4, 100);
-  EXPECT_NEAR(four.optimal, 0.042, 0.004);
-  EXPECT_NEAR(four.legitimate, 0.13, 0.03);
-  EXPECT_NEAR(four.compensated[0], 0.15, 0.03);
-  EXPECT_NEAR(four.compensated[1], 0.14, 0.03);
-  EXPECT_NEAR(four.eavesdropper, 660, 60);
-  const RobotErrors two = robot_errors(2, 100);
-  EXPECT_NEAR(two.legitimate, 0.050, 0.005);
-  EXPECT_NEAR(two.eavesdropper, 9, 1);
-  const RobotErrors three = robot_errors(3, 100);
-  EXPECT_NEAR(three.legitimate, 0.060, 0.006);
-  EXPECT_NEAR(three.eavesdropper, 455, 45);
+TEST(FusionLane, AnglesAreFusedOnOneTurn) {
+  VectorXd estimate = Eigen::Vector2d(-3.1, -3.1);
+  privacy::to_turn_of(Eigen::Vector2d(3.1, 3.1), {0, 2 * std::acos(-1.0)}, estimate);
+  EXPECT_EQ(estimate[0], -3.1);
+  EXPECT_NEAR(estimate[1], 2 * std::acos(-1.0) - 3.1, 1e-12);
 }
 
 #ifdef VIGIL_COUNTS_MALLOC
