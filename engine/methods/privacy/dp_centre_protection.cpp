@@ -39,15 +39,18 @@ class DpCentre final : public Protection {
         a_(model_.states()),
         mean_(model_.states(), settings_.kappa),
         published_(VectorXd::Zero(model_.states())),
+        steady_(knowledge.stationary),
         meter_(model_.states(), settings_.epsilon, settings_.delta, dp_centre_losses(design_, settings_, q_)) {
     if (knowledge.stationary) lag_.emplace(model_, design_.filters, design_.nominal, settings_.kappa);
     if (const auto S = state_covariance(model_); S && knowledge.stationary) zero_ = S->trace();
   }
   std::unique_ptr<Protection> clone() const override { return std::make_unique<DpCentre>(*this); }
 
-  void encode(const PublicTick& /*tick*/, MatrixXd& /*messages*/) override {}
+  void encode(const PublicTick& tick, MatrixXd& /*messages*/) override {
+    steady_ = steady_ && (tick.settled || stationary(tick, design_.filters));
+  }
   void decode(const PublicTick& tick, const MatrixXd& received, std::span<const char> lost, Decoded& decoded) override {
-    for (const char one : lost) lossless_ = lossless_ && one == 0;
+    for (const char one : lost) steady_ = steady_ && one == 0;
     Protection::decode(tick, received, lost, decoded);
   }
   void release(const PublicTick& tick, const VectorXd& fused) override {
@@ -64,8 +67,7 @@ class DpCentre final : public Protection {
   }
   double eavesdropper_trace(const PublicTick& /*tick*/, const std::string& variant) const override {
     if (variant == "zero") return zero_;
-    return lossless_ ? lag_trace_ + static_cast<double>(model_.states()) * q_
-                     : std::numeric_limits<double>::quiet_NaN();
+    return steady_ ? lag_trace_ + static_cast<double>(model_.states()) * q_ : std::numeric_limits<double>::quiet_NaN();
   }
 
   void declare(SignalScope& scope) override {
@@ -115,7 +117,7 @@ class DpCentre final : public Protection {
   std::optional<MeanTrace> lag_;
   double lag_trace_ = std::numeric_limits<double>::quiet_NaN();
   double zero_ = std::numeric_limits<double>::quiet_NaN();
-  bool lossless_ = true;
+  bool steady_;  ///< every tick so far was in the filters' stationary law, and nothing was lost
   LossMeter meter_;
   std::vector<int> ids_;
 };

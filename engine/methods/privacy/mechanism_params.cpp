@@ -76,6 +76,10 @@ DpSettings read_dp_settings(const Params& params, int n) {
           .at_centre = false};
 }
 
+bool stationary(const PublicTick& tick, const StationaryFilters& filters) {
+  return (tick.P - filters.P).norm() <= 1e-9 * filters.P.norm();
+}
+
 Json matrix_json(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
   for (Eigen::Index r = 0; r < matrix.rows(); ++r) {

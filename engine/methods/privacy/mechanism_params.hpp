@@ -6,6 +6,7 @@
 
 #include "engine/core/params.hpp"
 #include "engine/methods/privacy/dp_fusion.hpp"
+#include "engine/methods/privacy/protection.hpp"
 
 namespace vigil::privacy {
 
@@ -19,6 +20,9 @@ Eigen::VectorXd read_adjacent(const Params& params, int n);
 ParamTable dp_table(std::vector<Param> own);
 /// Of those; `shares` is left empty. Throws InputError at /H.
 DpSettings read_dp_settings(const Params& params, int n);
+
+/// True where the local filters are in their stationary law in this tick, to 1e-9.
+bool stationary(const PublicTick& tick, const StationaryFilters& filters);
 
 /// [[..],..], as a design has it.
 Json matrix_json(const Eigen::MatrixXd& matrix);

@@ -75,6 +75,7 @@ class TwoStepProtection final : public Protection {
         sender_(settings_.window),
         noise_sender_(settings_.window),
         receiver_(design_.compensated.W, settings_.window),
+        steady_(knowledge.stationary),
         meter_(model_.stacked(), settings_.epsilon, settings_.delta, loss_views(design_, settings_)) {
     std::vector<MatrixXd> gains;
     for (std::size_t i = 0; i < design_.Rg.size(); ++i) gains.push_back(std::sqrt(design_.q_xi[i]) * design_.Rg[i]);
@@ -88,6 +89,7 @@ class TwoStepProtection final : public Protection {
   std::unique_ptr<Protection> clone() const override { return std::make_unique<TwoStepProtection>(*this); }
 
   void encode(const PublicTick& tick, MatrixXd& messages) override {
+    steady_ = steady_ && (tick.settled || stationary(tick, design_.filters));
     xi_draws_.normals(tick.k, xi_);
     alpha_draws_.normals(tick.k, alpha_);
     eta_.noalias() = gain_ * xi_;
@@ -128,7 +130,7 @@ class TwoStepProtection final : public Protection {
       const double carried = static_cast<double>(noises_carried(tick.k, settings_.window)) * settings_.q_alpha;
       return (W * (tick.P + N_ + carried * design_.Pi)).cwiseProduct(W).sum();
     }
-    if (variant == "window_mean" && tick.k >= settings_.window) return window_mean_;
+    if (variant == "window_mean" && tick.k >= settings_.window && steady_) return window_mean_;
     return variant == "zero" ? zero_ : std::numeric_limits<double>::quiet_NaN();
   }
 
@@ -167,8 +169,9 @@ class TwoStepProtection final : public Protection {
   Draws xi_draws_, alpha_draws_;
   TwoStepSender sender_, noise_sender_;
   TwoStepReceiver receiver_;
-  LossMeter meter_;
+  bool steady_;  ///< every tick so far was in the filters' stationary law
   bool gaps_ = false;
+  LossMeter meter_;
   VectorXd xi_, alpha_, eta_, hidden_, xp_, message_, guess_;
 };
 
