@@ -1,6 +1,7 @@
 #include "engine/methods/privacy/eavesdroppers.hpp"
 
 #include "engine/linalg/small.hpp"
+#include "engine/methods/privacy/start.hpp"
 
 namespace vigil::privacy {
 namespace {
@@ -10,8 +11,8 @@ class FusingEavesdropper final : public Eavesdropper {
   explicit FusingEavesdropper(const Knowledge& knowledge)
       : plant_(knowledge.plant),
         no_input_(Eigen::VectorXd::Zero(plant_->inputs())),
-        heard_(knowledge.prior.replicate(1, static_cast<Eigen::Index>(knowledge.sensors.size()))),
-        estimate_(knowledge.prior) {}
+        heard_(prior_mean(knowledge).replicate(1, static_cast<Eigen::Index>(knowledge.sensors.size()))),
+        estimate_(prior_mean(knowledge)) {}
 
   std::unique_ptr<Eavesdropper> clone() const override { return std::make_unique<FusingEavesdropper>(*this); }
 
