@@ -3,7 +3,7 @@
 #include <map>
 
 #include "engine/adversary/attack.hpp"
-#include "engine/methods/method.hpp"
+#include "engine/methods/privacy/protection.hpp"
 #include "engine/run/design.hpp"
 #include "tests/engine/runs/capture.hpp"
 
@@ -24,6 +24,8 @@ const World kWorlds[] = {{"consensus", 3, 2, {"link:*", "link:1-2", "sensor:2"}}
                          {"replay-nongaussian", 2, 2, {"sensor:1"}, 2},
                          {"replay-ubb", 2, 2, {"sensor:1"}, 2},
                          {"replay-mixed", 2, 2, {"sensor:1"}, 2},
+                         {"privacy-robot-linear", 2, 2, {"link:*", "link:1-fused", "sensor:2"}},
+                         {"privacy-robot-nonlinear", 3, 4, {"link:*", "sensor:2"}},
                          {"observer-pair", 7, 3, {"sensor:1", "actuator:1", "actuator:2.w1"}, 0, 1}};
 
 Json params_of(const std::string& attack, const World& world, const std::string& place) {
@@ -50,7 +52,7 @@ std::unique_ptr<vigil::Run> made(Json document) {
     return make();
   } catch (const InputError& error) {
     const std::string pointer = error.problems().front().pointer;
-    if (!pointer.starts_with("/lanes/it/params")) {
+    if (!pointer.starts_with("/lanes/it/p")) {  // its params, or its protection's
       EXPECT_TRUE(pointer == "/adversary/it/on" || pointer == "/adversary/it/params") << error.what();
       return nullptr;
     }
@@ -61,11 +63,12 @@ std::unique_ptr<vigil::Run> made(Json document) {
 }
 
 /// Twenty ticks. False where the document is refused.
-bool walk(const std::string& method, const std::string& attack, const char* place, const World& world) {
-  SCOPED_TRACE(method + " under " + attack + " on " + place + " of " + world.preset);
+bool walk(const std::string& method, const std::string& attack, const char* place, const World& world,
+          const Json& protection = {{"type", "none"}}) {
+  SCOPED_TRACE(protection.dump() + method + " under " + attack + " on " + place + " of " + world.preset);
   Json document = Scenario::preset(world.preset).document();
   document["time"]["steps"] = 20;
-  document["lanes"] = {{"it", {{"method", method}}}};
+  document["lanes"] = {{"it", {{"method", method}, {"protection", protection}}}};
   if (world.actuators > 0) document["lanes"]["it"]["params"] = {{"gains", "printed"}};
   const Json params = params_of(attack, world, place);
   document["adversary"] = {{"it", {{"type", attack}, {"on", {place}}, {"params", params}}}};
@@ -104,9 +107,23 @@ TEST(RegistryWalk, EveryAttackMeetsEveryMethod) {
   for (const auto& [id, count] : walks) EXPECT_GT(count, 0) << id << " fits no preset";
 }
 
+TEST(RegistryWalk, EveryAttackMeetsEveryProtection) {
+  std::map<std::string, int> walks;
+  for (const auto& protection : Registry<ProtectionMake>::all()) {
+    for (const auto& attack : Registry<AttackMake>::all()) {
+      for (const World& world : kWorlds) {
+        if (!std::string(world.preset).starts_with("privacy")) continue;
+        for (const char* place : world.places)
+          walks[protection.id] += walk("fusion", attack.id, place, world, {{"type", protection.id}}) ? 1 : 0;
+      }
+    }
+  }
+  for (const auto& [id, count] : walks) EXPECT_GT(count, 0) << id << " fits no preset";
+}
+
 TEST(RegistryWalk, EveryDeclarationHasItsWords) {
   const Json registry = registry_json();
-  for (const char* kind : {"methods", "attacks", "plants", "sensors"}) {
+  for (const char* kind : {"methods", "protections", "attacks", "plants", "sensors"}) {
     EXPECT_FALSE(registry.at(kind).empty()) << kind;
     for (const Json& entry : registry.at(kind)) {
       EXPECT_FALSE(entry.at("title").at("zh").get<std::string>().empty()) << entry.at("id");
