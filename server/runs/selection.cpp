@@ -33,17 +33,21 @@ bool in_overview(const Signal& signal) {
   return (starts(signal.name, "link.") || starts(signal.name, "sensor.")) && ends(signal.name, ".state");
 }
 
-/// The lane's own signals, the truth, and what was really added to the sensors where the lane reconstructs it.
+/// The lane's own signals, the truth, what was really added to the sensors where the lane reconstructs it, and which
+/// links to its fusion centre are overheard.
 std::vector<int> lane_topic(const std::string& lane, const Catalogue& catalogue) {
   bool reconstructs = false;
+  bool centred = false;
   for (const Signal& signal : catalogue.all()) {
     reconstructs = reconstructs || (signal.lane == lane && signal.name.find(".attack.") != std::string::npos);
+    centred = centred || signal.name == "lane." + lane + ".fused.square";
   }
   std::vector<int> ids;
   for (const Signal& signal : catalogue.all()) {
     const bool truth = starts(signal.name, "truth.");
     const bool added = reconstructs && starts(signal.name, "sensor.") && ends(signal.name, ".injected");
-    if (signal.lane == lane || (signal.lane.empty() && (truth || added))) ids.push_back(signal.id);
+    const bool heard = centred && ends(signal.name, ".overheard");
+    if (signal.lane == lane || (signal.lane.empty() && (truth || added || heard))) ids.push_back(signal.id);
   }
   return ids;
 }

@@ -95,6 +95,24 @@ TEST(Topics, ALaneThatReconstructsComesWithWhatWasInjected) {
   }
 }
 
+TEST(Topics, ALaneWithAFusionCentreComesWithWhoIsOverheard) {
+  const auto carries = [](const char* preset, const std::string& lane, const char* name) {
+    RunOrder order;
+    order.scenario = Scenario::preset(preset);
+    const vigil::Run run = make_run(order);
+    for (const HubTopic& topic : hub_topics(run.catalogue(), order.scenario.document())) {
+      if (topic.name != "lane:" + lane) continue;
+      return std::any_of(topic.signals.begin(), topic.signals.end(),
+                         [&](int id) { return run.catalogue()[id].name == name; });
+    }
+    return false;
+  };
+  EXPECT_TRUE(carries("privacy-robot-linear", "contamination", "link.1-fused.overheard"));
+  EXPECT_TRUE(carries("privacy-robot-linear", "contamination", "lane.contamination.eve.fusing.square"));
+  EXPECT_FALSE(carries("privacy-robot-linear", "contamination", "link.1-fused.state"));
+  EXPECT_FALSE(carries("consensus", "consensus", "link.1-2.overheard"));
+}
+
 TEST(Topics, TheOverviewHasEveryAlarm) {
   RunOrder order;
   order.scenario = Scenario::preset("replay-ubb");

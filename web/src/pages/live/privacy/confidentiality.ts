@@ -70,12 +70,30 @@ const printed: Readonly<Record<string, PaperIndex>> = { contamination: 1.23, two
 const engine = 'privacy-engine';
 const printedCodeA: PaperIndex = 3.66;
 
+interface Code {
+  code: unknown;
+  loss: unknown;
+}
+
+function codeOf(run: Pick<RunDetail, 'document'> | null, lane: string): Code {
+  const own = (run?.document?.lanes as Record<string, { protection?: { params?: Partial<Code> } } | undefined> | undefined)?.[lane];
+  return { code: own?.protection?.params?.code ?? 'A', loss: own?.protection?.params?.loss ?? fittedLoss };
+}
+
+/** The share of missed messages with which code A has the index that the paper prints: the paper does not say it. */
+const fittedLoss = 0.36;
+
+/** Whether an index agrees with the paper's because a number was fitted to it. */
+export function isFitted(run: Pick<RunDetail, 'document'> | null, lane: string): boolean {
+  const { code, loss } = codeOf(run, lane);
+  return protectionOf(run, lane) === 'secrecy_code' && code === 'A' && loss === fittedLoss;
+}
+
 export function paperIndex(run: Pick<RunDetail, 'document' | 'scenario'> | null, lane: string): PaperIndex | null {
   if (run?.scenario !== engine) return null;
   const type = protectionOf(run, lane);
   if (type !== 'secrecy_code') return printed[type] ?? null;
-  const own = (run?.document?.lanes as Record<string, { protection?: { params?: { code?: unknown } } } | undefined> | undefined)?.[lane];
-  return (own?.protection?.params?.code ?? 'A') === 'A' ? printedCodeA : null;
+  return codeOf(run, lane).code === 'A' ? printedCodeA : null;
 }
 
 export interface GaugeScale {

@@ -89,13 +89,13 @@ export function userSquares(model: RunModel, lanes: readonly LaneModel[], chosen
   return [...own, ...(best && isShown(turned, 'optimal') ? pair(best, t('role_optimal'), lookOf(best, { token: 'ink' }, []), traces, true, false) : [])];
 }
 
-/** Squared errors of those who listen, lane by lane (figures 2-4, 2-7, 4-3): whom a mechanism is meant against in the lane's dash, others in their own. */
+/** Squared errors of those who listen, lane by lane (figures 2-4, 2-7, 4-3): whom a mechanism is meant against always, in the lane's dash, others in their own. */
 export function eveSquares(model: RunModel, lanes: readonly LaneModel[], chosen: LaneModel | null, { turned, traces }: SquareOptions): LineSpec[] {
   return lanes.flatMap((lane) =>
     curvesOf(model, lane)
       .filter(({ role }) => role === 'eve')
       .flatMap((curve, i) => {
-        if (!isShown(turned, curve.id)) return [];
+        if (i > 0 && !isShown(turned, curve.id)) return [];
         const look = { token: lane.token, dash: i === 0 ? lane.dash : lookOf(curve, lane, []).dash, width: i > 0 ? 1.1 : lane === chosen ? 2.2 : 1.5 };
         return pair(curve, `${laneWord(lane.id)}, ${variantWord(curve.variant ?? '')}`, look, traces, lane !== chosen, lane === chosen && i === 0);
       }),
@@ -121,13 +121,13 @@ interface Key {
   squares: string[];
 }
 
-/** The kinds of curves that lanes have, one entry each: what the keys beside a chart switch. */
-export function curveKeys(model: RunModel, lanes: readonly LaneModel[], roles: readonly Curve['role'][]): Key[] {
+/** The kinds of curves that lanes have, one entry each: what the keys beside a chart switch. `main`: with whom a mechanism is meant against. */
+export function curveKeys(model: RunModel, lanes: readonly LaneModel[], roles: readonly Curve['role'][], main = true): Key[] {
   const nodes = model.nodes.map(({ id }) => id);
   const seen = new Map<string, Key>();
   for (const lane of lanes) {
     for (const curve of curvesOf(model, lane)) {
-      if (!roles.includes(curve.role)) continue;
+      if (!roles.includes(curve.role) || (!main && curve.id.startsWith('eve.'))) continue;
       const key = seen.get(curve.id) ?? { id: curve.id, word: curveWord({ ...curve, node: null }), look: lookOf(curve, lane, nodes), squares: [] };
       if (curve.square) key.squares.push(curve.square);
       seen.set(curve.id, key);

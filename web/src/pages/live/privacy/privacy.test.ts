@@ -7,7 +7,7 @@ import { laneOf, makeModel } from '../model';
 import { panelsOf } from '../panels';
 import { withCentre } from '../plane_draw';
 import { componentsOf, curvesOf, hasCentre, isShown, planeOf, variantsOf } from './centre';
-import { gaugePlace, gaugeScale, paperIndex, rankOf, readingsAt } from './confidentiality';
+import { gaugePlace, gaugeScale, isFitted, paperIndex, rankOf, readingsAt } from './confidentiality';
 import { clipped, curveKeys, eveSquares, laneSquares, lookOf, mostDrawn, trackLines, userSquares } from './curves';
 import { designOf } from './design';
 import { run, signals, surfaces, twoStep } from './fixture';
@@ -118,6 +118,7 @@ describe('lines', () => {
   it('are keyed once a kind, over all lanes where asked to', () => {
     expect(curveKeys(model, [lane('contamination')], ['fused', 'sent']).map(({ id }) => id)).toEqual(['fused', 'sent']);
     expect(curveKeys(model, model.lanes, ['eve']).map(({ id }) => id)).toEqual(['eve.fusing', 'other.zero', 'eve.differencing', 'other.window_mean']);
+    expect(curveKeys(model, model.lanes, ['eve'], false).map(({ id }) => id)).toEqual(['other.zero', 'other.window_mean']);
   });
 
   it('stay on the picture beyond 1e150, and what is below stays as it is', () => {
@@ -156,6 +157,7 @@ describe('the confidentiality index', () => {
     expect(paperIndex(other, 'two_step')).toBeNull();
     const codeL = { ...run, document: { ...run.document, lanes: { code: { protection: { type: 'secrecy_code', params: { code: 'L' } } } } } };
     expect(paperIndex(codeL, 'code')).toBeNull();
+    expect([isFitted(run, 'secrecy_code_a'), isFitted(codeL, 'code'), isFitted(run, 'two_step')]).toEqual([true, false, false]);
   });
 });
 
@@ -178,6 +180,7 @@ describe('what the indices say', () => {
   it('says what this run finds: another rank, no growth, a negative index', () => {
     expect(sentencesOf([facts(4.81, 3, { design: { ...design!, slope: 0 } })]).map(({ key, tone }) => [key, tone])).toEqual([['grows_not', 'bad'], ['window_mean_paper', undefined]]);
     expect(sentencesOf([facts(-0.5, null, { design: null, paper: 1.23 })]).map(({ key }) => key)).toEqual(['printed_index', 'negative']);
+    expect(sentencesOf([facts(3.66, null, { design: null, paper: 3.66, fitted: true })]).map(({ key }) => key)).toEqual(['printed_fitted']);
     expect(sentencesOf([facts(1, 0.5, { design: null, paper: null })]).map(({ key }) => key)).toEqual(['window_mean']);
   });
 });

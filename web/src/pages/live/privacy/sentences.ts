@@ -18,6 +18,8 @@ export interface LaneFacts {
   reading: LaneReading;
   design: PrivacyDesign | null;
   paper: PaperIndex | null;
+  /** The printed index was what a setting of this run was fitted to. */
+  fitted?: boolean;
 }
 
 export function sentencesOf(lanes: readonly LaneFacts[]): Sentence[] {
@@ -41,9 +43,9 @@ function windowMean({ reading, paper }: LaneFacts): Sentence[] {
   return [{ id: `${reading.lane.id} window mean`, key, values: { lane: laneWord(reading.lane.id), ci: formatNumber(value) }, words: { rank: rankWords[rank]! }, tone: rank === 0 ? 'bad' : undefined }];
 }
 
-function printed({ reading: { lane, main }, paper }: LaneFacts): Sentence[] {
+function printed({ reading: { lane, main }, paper, fitted }: LaneFacts): Sentence[] {
   if (typeof paper !== 'number' || !main) return [];
-  return [{ id: `${lane.id} printed`, key: 'printed_index', values: { lane: laneWord(lane.id), paper: String(paper), ci: formatNumber(main.value) } }];
+  return [{ id: `${lane.id} printed`, key: fitted ? 'printed_fitted' : 'printed_index', values: { lane: laneWord(lane.id), paper: String(paper), ci: formatNumber(main.value) } }];
 }
 
 function negative({ reading: { lane, main } }: LaneFacts): Sentence[] {

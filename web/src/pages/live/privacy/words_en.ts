@@ -72,6 +72,7 @@ export const en = {
   window_mean_paper: 'The paper’s infinite index (Theorem 4.2) is about the differencing eavesdropper alone: one who takes the mean of the window leaves {lane} an index of {ci}, rank {rank}.',
   window_mean: '{lane}: against an eavesdropper who takes the mean of the window the index is {ci}, rank {rank}.',
   printed_index: '{lane}: the paper prints {paper}; here it is {ci}.',
+  printed_fitted: '{lane}: the paper prints {paper}; here it is {ci}. The paper does not say how often a message is missed: that share was fitted to its number.',
   negative: '{lane}: the index is negative, {ci}: the eavesdropper knows more than the user.',
   column_lane: 'lane',
   column_rank: 'rank',

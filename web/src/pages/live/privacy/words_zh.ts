@@ -75,6 +75,7 @@ export const zh: Translation<typeof en> = {
   window_mean_paper: '论文所称的无穷大指标（定理 4.2）只针对差分窃听者：若窃听者改取窗口均值，{lane} 的指标仅为 {ci}，等级“{rank}”。',
   window_mean: '{lane}：面对取窗口均值的窃听者，指标为 {ci}，等级“{rank}”。',
   printed_index: '{lane}：论文所印为 {paper}，此处为 {ci}。',
+  printed_fitted: '{lane}：论文所印为 {paper}，此处为 {ci}。论文未说明漏收报文的概率，该概率正是按所印数值拟合的。',
   negative: '{lane}：指标为负（{ci}），窃听者比合法用户知道得更多。',
   column_lane: '方法',
   column_rank: '等级',
