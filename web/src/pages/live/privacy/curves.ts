@@ -60,6 +60,8 @@ interface SquareOptions {
   turned: readonly string[];
   /** Whether the covariance's trace is drawn under each squared error. */
   traces: boolean;
+  /** Kinds of curves that have no values. */
+  without?: readonly string[];
 }
 
 function pair(curve: Curve, name: string, look: Look, traces: boolean, unstreamed: boolean, strong: boolean): LineSpec[] {
@@ -70,10 +72,10 @@ function pair(curve: Curve, name: string, look: Look, traces: boolean, unstreame
 }
 
 /** Squared errors of all that one lane tells (figures 2-3, 2-6, 3-3). The user is drawn last: on top. */
-export function laneSquares(model: RunModel, lane: LaneModel, { turned, traces }: SquareOptions): LineSpec[] {
+export function laneSquares(model: RunModel, lane: LaneModel, { turned, traces, without = [] }: SquareOptions): LineSpec[] {
   const nodes = model.nodes.map(({ id }) => id);
   return curvesOf(model, lane)
-    .filter(({ id }) => isShown(turned, id))
+    .filter(({ id }) => isShown(turned, id) && !without.includes(id))
     .toReversed()
     .flatMap((curve) => pair(curve, curveWord(curve), lookOf(curve, lane, nodes), traces, false, curve.role === 'fused'));
 }

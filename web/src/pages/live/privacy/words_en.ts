@@ -89,6 +89,7 @@ export const en = {
   messages_label: 'What goes to the fusion centre over time, {lane}: contaminated components, links overheard and links attacked',
   contaminated: 'contaminated',
   overheard: 'overheard',
+  overheard_of: '{id} overheard',
   none_contaminated: '{lane} contaminates nothing',
   centre: 'fusion centre',
   network_label: 'Sensors, the fusion centre and who listens at tick {k}: {list}',

@@ -92,6 +92,7 @@ export const zh: Translation<typeof en> = {
   messages_label: '{lane} 发往融合中心的内容随时间的变化：被污染的分量、被窃听与被攻击的链路',
   contaminated: '被污染',
   overheard: '被窃听',
+  overheard_of: '{id} 被窃听',
   none_contaminated: '{lane} 不污染任何分量',
   centre: '融合中心',
   network_label: '第 {k} 步的传感器、融合中心与窃听情况：{list}',
