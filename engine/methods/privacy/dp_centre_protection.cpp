@@ -84,14 +84,18 @@ class DpCentre final : public Protection {
   std::vector<OwnMetric> metrics() const override { return meter_.metrics(); }
 
   Json design() const override {
-    return {{"gamma", design_.gamma},
-            {"epsilon", settings_.epsilon},
-            {"delta", settings_.delta},
-            {"sigma", design_.sigma},
-            {"q", q_},
-            {"W", matrix_json(design_.nominal.W)},
-            {"views", meter_.design(knowledge_.nodes)},
-            {"views_design_mu", 1 / design_.gamma}};
+    Json design{{"gamma", design_.gamma},
+                {"epsilon", settings_.epsilon},
+                {"delta", settings_.delta},
+                {"sigma", design_.sigma},
+                {"q", q_},
+                {"W", matrix_json(design_.nominal.W)},
+                {"views", meter_.design(knowledge_.nodes)},
+                {"views_design_mu", 1 / design_.gamma}};
+    const VectorXd& shift = meter_.views().front().shift;  // of one published mean
+    add_releases(design, "fused", *knowledge_.plant, VectorXd::Constant(shift.size(), std::sqrt(q_)), shift);
+    add_distance(design, "fused", std::sqrt(q_), shift);
+    return design;
   }
   std::vector<std::string> warnings() const override {
     if (knowledge_.stationary) return {};

@@ -130,7 +130,8 @@ std::vector<LossView> dp_centre_losses(const DpFusion& design, const DpSettings&
   for (LossView& view : views) view.first = settings.kappa - 1 + view.weights.cols() - 1;
   for (const auto& [name, count] : {std::pair{"packets", 1}, std::pair{"packet_stream", shifts.memory()}}) {
     const MatrixXd D = in_a_row(count, [&](int k) { return shifts.packets(k); });
-    views.push_back({.name = name, .output = L, .mu = alike(D, 0, settings.lambda).mu(), .weights = {}, .first = 0});
+    views.push_back(
+        {.name = name, .output = L, .mu = alike(D, 0, settings.lambda).mu(), .weights = {}, .shift = {}, .first = 0});
     if (views.back().mu == 0) views.back().weights = MatrixXd::Zero(n, 1);
   }
   return views;

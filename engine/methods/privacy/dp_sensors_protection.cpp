@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/methods/privacy/dp_losses.hpp"
+#include "engine/methods/privacy/dp_surfaces.hpp"
 #include "engine/methods/privacy/eavesdroppers.hpp"
 #include "engine/methods/privacy/mechanism_params.hpp"
 #include "engine/methods/privacy/protection.hpp"
@@ -91,17 +92,23 @@ class DpSensors final : public Protection {
     Json conditions = Json::array();
     for (const double condition : design_.condition)
       conditions.push_back(std::isfinite(condition) ? Json(condition) : Json(nullptr));
-    return {{"gamma", design_.gamma},
-            {"epsilon", settings_.epsilon},
-            {"delta", settings_.delta},
-            {"sigma", design_.sigma},
-            {"q_tot", design_.q_total},
-            {"q", design_.q},
-            {"condition", conditions},
-            {"W", matrix_json(design_.nominal.W)},
-            {"Wc", matrix_json(design_.compensated.W)},
-            {"views", meter_.design(knowledge_.nodes)},
-            {"views_design_mu", 1 / design_.gamma}};
+    Json design{{"gamma", design_.gamma},
+                {"epsilon", settings_.epsilon},
+                {"delta", settings_.delta},
+                {"sigma", design_.sigma},
+                {"q_tot", design_.q_total},
+                {"q", design_.q},
+                {"condition", conditions},
+                {"W", matrix_json(design_.nominal.W)},
+                {"Wc", matrix_json(design_.compensated.W)},
+                {"views", meter_.design(knowledge_.nodes)},
+                {"views_design_mu", 1 / design_.gamma}};
+    const double std = std::sqrt(design_.q_total / settings_.kappa);
+    const VectorXd& shift = meter_.views().front().shift;  // of one published mean
+    add_releases(design, "fused", *knowledge_.plant, VectorXd::Constant(shift.size(), std), shift);
+    add_distance(design, "fused", std, shift);
+    if (design_.q_total > 0) design["surfaces"] = dp_surfaces(design_, settings_);
+    return design;
   }
 
   std::vector<std::string> warnings() const override {

@@ -14,7 +14,12 @@ bool sampled(const LossView& view) { return std::isfinite(view.mu); }
 }  // namespace
 
 LossView view_of(const PrivacyLoss& loss, std::string name, int output, int size, int offset, int rows) {
-  LossView view{.name = std::move(name), .output = output, .mu = loss.mu(), .weights = {}, .first = 0};
+  LossView view{.name = std::move(name),
+                .output = output,
+                .mu = loss.mu(),
+                .weights = {},
+                .shift = loss.shift().tail(rows),
+                .first = 0};
   const auto lags = loss.weights().size() / rows;
   view.weights = Eigen::MatrixXd::Zero(size, lags);
   view.weights.middleRows(offset, rows) = loss.weights().reshaped(rows, lags).rowwise().reverse();

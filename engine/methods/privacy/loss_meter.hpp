@@ -21,6 +21,7 @@ struct LossView {
   int output = -1;          ///< whose it is: a node, or the number of nodes for what is published
   double mu = 0;            ///< infinite: seen for certain, nothing to sample
   Eigen::MatrixXd weights;  ///< size x lags; column j is for the noise of j ticks ago
+  Eigen::VectorXd shift;    ///< how far apart the newest outputs of the worst neighbours are
   std::int64_t first = 0;   ///< tick of the first loss: the noise of all its lags has its lasting law by then
 };
 

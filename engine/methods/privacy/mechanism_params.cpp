@@ -80,6 +80,19 @@ bool stationary(const PublicTick& tick, const StationaryFilters& filters) {
   return (tick.P - filters.P).norm() <= 1e-9 * filters.P.norm();
 }
 
+void add_releases(Json& design, const std::string& node, const Plant& plant, const Eigen::VectorXd& std,
+                  const Eigen::VectorXd& shift) {
+  for (Eigen::Index c = 0; c < shift.size(); ++c)
+    design["releases"].push_back({{"node", node},
+                                  {"component", plant.state()[static_cast<std::size_t>(c)].name},
+                                  {"std", std[c]},
+                                  {"shift", std::abs(shift[c])}});
+}
+
+void add_distance(Json& design, const std::string& node, double std, const Eigen::VectorXd& shift) {
+  design["releases"].push_back({{"node", node}, {"component", "‖·‖"}, {"std", std}, {"shift", shift.norm()}});
+}
+
 Json matrix_json(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
   for (Eigen::Index r = 0; r < matrix.rows(); ++r) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "engine/core/params.hpp"
@@ -23,6 +24,13 @@ DpSettings read_dp_settings(const Params& params, int n);
 
 /// True where the local filters are in their stationary law in this tick, to 1e-9.
 bool stationary(const PublicTick& tick, const StationaryFilters& filters);
+
+/// Appends to "releases" of a design how two neighbouring outputs of a node differ, by component: {node, component,
+/// std, shift}. std, shift: of each state.
+void add_releases(Json& design, const std::string& node, const Plant& plant, const Eigen::VectorXd& std,
+                  const Eigen::VectorXd& shift);
+/// The same of the distance of outputs whose components all have that noise.
+void add_distance(Json& design, const std::string& node, double std, const Eigen::VectorXd& shift);
 
 /// [[..],..], as a design has it.
 Json matrix_json(const Eigen::MatrixXd& matrix);

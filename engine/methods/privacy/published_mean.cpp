@@ -31,19 +31,18 @@ MeanTrace::MeanTrace(const FusionModel& model, const StationaryFilters& filters,
   fused_.resize(n, all);
   fused_ << MatrixXd::Identity(n, n), -nominal.W;
 
-  MatrixXd start = MatrixXd::Zero(all, all);
-  start.bottomRightCorner(all - n, all - n) = filters.P;
+  law_ = ahead_ = MatrixXd::Zero(all, all);
+  law_.bottomRightCorner(all - n, all - n) = filters.P;
   if (const auto S = state_covariance(model)) {
-    start.topLeftCorner(n, n) = *S;
+    law_.topLeftCorner(n, n) = *S;
     for (int at = 0; at < all - n; at += n) {
-      start.block(n + at, 0, n, n) = filters.P.block(at, at, n, n);
-      start.block(0, n + at, n, n) = filters.P.block(at, at, n, n);
+      law_.block(n + at, 0, n, n) = filters.P.block(at, at, n, n);
+      law_.block(0, n + at, n, n) = filters.P.block(at, at, n, n);
     }
   } else {
-    start.topLeftCorner(n, n) = model.x0 * model.x0.transpose();
+    law_.topLeftCorner(n, n) = model.x0 * model.x0.transpose();
   }
-  cross_.assign(static_cast<std::size_t>(kappa), MatrixXd::Zero(all, all));
-  cross_.front() = start;
+  with_.assign(static_cast<std::size_t>(kappa), MatrixXd::Zero(all, n));
   pairs_ = MatrixXd::Zero(kappa, kappa);
 }
 
@@ -60,24 +59,22 @@ double MeanTrace::sum_over_window() const {
 double MeanTrace::step() {
   ++t_;
   if (t_ > 0) {
-    const MatrixXd own = M_ * cross_.front() * M_.transpose() + driven_;
-    for (std::size_t k = cross_.size() - 1; k > 0; --k) {
-      scratch_.noalias() = M_ * cross_[k - 1];
-      cross_[k].swap(scratch_);
-    }
-    cross_.front() = own;
+    ahead_.noalias() = M_ * law_;
+    law_.noalias() = ahead_ * M_.transpose();
+    law_ += driven_;
+    for (std::size_t k = with_.size() - 1; k > 0; --k) with_[k].noalias() = M_ * with_[k - 1];
   }
+  with_.front().noalias() = law_ * fused_.transpose();
   const auto there = static_cast<Eigen::Index>(std::min<std::int64_t>(t_ + 1, kappa_));
   const auto row = static_cast<Eigen::Index>(t_ % kappa_);
   double with_state = 0;
   for (Eigen::Index k = 0; k < there; ++k) {
-    const MatrixXd right = cross_[static_cast<std::size_t>(k)] * fused_.transpose();  // E[Y(t) fused(t - k)']
-    pairs_(row, k) = fused_.cwiseProduct(right.transpose()).sum();
-    with_state += right.topRows(states_).trace();
+    const MatrixXd& with = with_[static_cast<std::size_t>(k)];
+    pairs_(row, k) = fused_.cwiseProduct(with.transpose()).sum();
+    with_state += with.topRows(states_).trace();
   }
   const auto count = static_cast<double>(there);
-  return cross_.front().topLeftCorner(states_, states_).trace() - 2 * with_state / count +
-         sum_over_window() / (count * count);
+  return law_.topLeftCorner(states_, states_).trace() - 2 * with_state / count + sum_over_window() / (count * count);
 }
 
 }  // namespace vigil::privacy

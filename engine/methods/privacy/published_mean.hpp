@@ -37,11 +37,12 @@ class MeanTrace {
 
   int states_, kappa_;
   std::int64_t t_ = -1;
-  Eigen::MatrixXd M_, driven_;          ///< Y = (x, x~ of all sensors): Y+ = M Y + noise of that covariance
-  Eigen::MatrixXd fused_;               ///< the fused estimate as an image of Y, n x (n + n L)
-  std::vector<Eigen::MatrixXd> cross_;  ///< E[Y(t) Y(t - k)']
-  Eigen::MatrixXd pairs_;  ///< kappa x kappa: row s mod kappa, column k: trace of E[fused(s) fused(s - k)']
-  Eigen::MatrixXd scratch_;
+  Eigen::MatrixXd M_, driven_;         ///< Y = (x, x~ of all sensors): Y+ = M Y + noise of that covariance
+  Eigen::MatrixXd fused_;              ///< the fused estimate as an image of Y, n x (n + n L)
+  Eigen::MatrixXd law_;                ///< E[Y(t) Y(t)']
+  std::vector<Eigen::MatrixXd> with_;  ///< E[Y(t) fused(t - k)']
+  Eigen::MatrixXd pairs_;              ///< kappa x kappa: row s mod kappa, column k: trace of E[fused(s) fused(s - k)']
+  Eigen::MatrixXd ahead_;
 };
 
 }  // namespace vigil::privacy

@@ -38,6 +38,50 @@ std::optional<MatrixXd> code_a_eavesdropper(const FusionModel& model, const Stat
   return P;
 }
 
+CodeAError::CodeAError(const FusionModel& model, const StationaryFilters& filters, double loss)
+    : A_(block_diagonal(std::vector<MatrixXd>(filters.gains.size(), model.A))),
+      Psi_(block_diagonal(filters.Psi)),
+      P_(filters.P),
+      ahead_(P_),
+      mixed_(P_) {
+  const MatrixXd KC = block_diagonal(visible_gains(model, filters.gains));
+  const int n = model.states(), L = model.count();
+  std::vector<MatrixXd> F, noise, own;
+  for (int i = 0; i < L; ++i) {
+    const LocalGains& gains = filters.gains[static_cast<std::size_t>(i)];
+    F.push_back(gains.F);
+    noise.push_back(gains.K * model.sensors[static_cast<std::size_t>(i)].R * gains.K.transpose());
+    own.push_back(P_.block(i * n, i * n, n, n));
+  }
+  const MatrixXd ahead = A_ * P_ * A_.transpose() + model.noise().replicate(L, L), V = block_diagonal(noise);
+  seen_ = loss * A_.transpose() * KC.transpose();
+  enters_G_ = loss * (KC * ahead * block_diagonal(F).transpose() - V);
+  enters_D_ = loss * (KC * ahead * KC.transpose() + V);
+  if (const auto S = state_covariance(model)) {  // E[x x~_j'] = P_jj
+    const MatrixXd known = stack(n, L) * column_of(own).transpose();
+    G_ = loss * (known - P_);
+    D_ = loss * (S->replicate(L, L) - known - known.transpose() + P_);
+  } else {
+    G_ = -loss * P_;
+    D_ = loss * P_;
+  }
+}
+
+void CodeAError::step() {
+  ahead_.noalias() = A_ * G_;
+  mixed_.noalias() = ahead_ * seen_;
+  G_.noalias() = ahead_ * Psi_.transpose();
+  G_ += enters_G_;
+  ahead_.noalias() = A_ * D_;
+  D_.noalias() = ahead_ * A_.transpose();
+  D_ += mixed_ + mixed_.transpose();
+  D_ += enters_D_;
+}
+
+double CodeAError::trace(const MatrixXd& W) const {
+  return (W * (P_ + G_ + G_.transpose() + D_)).cwiseProduct(W).sum();
+}
+
 std::optional<std::vector<MatrixXd>> code_l(const FusionModel& model, const StationaryFilters& filters) {
   const auto S = state_covariance(model);
   const Eigen::FullPivLU<MatrixXd> A(model.A);
@@ -68,7 +112,7 @@ void CodeMemory::advance() {
   restarted_ = true;
 }
 
-const Eigen::VectorXd& CodeMemory::decode(const Eigen::VectorXd& message) {
+const Eigen::VectorXd& CodeMemory::decode(const Eigen::Ref<const Eigen::VectorXd>& message) {
   base_ += message;
   return base_;
 }

@@ -16,6 +16,24 @@ namespace vigil::privacy {
 std::optional<Eigen::MatrixXd> code_a_eavesdropper(const FusionModel& model, const StationaryFilters& filters,
                                                    const Fusion& nominal, double loss);
 
+/// Code A from the first tick on: the same covariance in every tick, for local filters in their stationary law and a
+/// state that begins in its own, jointly with them, where A is stable, else at the prior mean. The eavesdropper begins
+/// at the prior mean; the first message is not coded, and it may miss it.
+class CodeAError {
+ public:
+  CodeAError(const FusionModel& model, const StationaryFilters& filters, double loss);
+  void step();
+  /// For the nominal weights W, n x (n L): in the tick of the last step; before any, in tick 0.
+  double trace(const Eigen::MatrixXd& W) const;
+
+ private:
+  Eigen::MatrixXd A_, Psi_, P_;
+  Eigen::MatrixXd seen_;                 ///< how E[d x~'] comes to D through a missed correction
+  Eigen::MatrixXd enters_G_, enters_D_;  ///< what a missed correction adds of its own
+  Eigen::MatrixXd G_, D_;                ///< E[d x~'] and E[d d'], d = what the eavesdropper has not got of xhat
+  Eigen::MatrixXd ahead_, mixed_;
+};
+
 /// Code L, one a sensor: Lc = S_i A^-T S_i^-1, S_i the covariance of the sensor's estimate; what is sent is then
 /// uncorrelated with the newest estimate. Nothing where A is not stable or not invertible. Its eavesdropper is left
 /// with the prior: state_covariance.
@@ -36,7 +54,7 @@ class CodeMemory {
   /// has arrived yet or, so long ago was it, the multiple has passed 1e9 and would swallow the estimate's digits.
   const Eigen::VectorXd& base() const { return base_; }
   /// A message has arrived; its estimate.
-  const Eigen::VectorXd& decode(const Eigen::VectorXd& message);
+  const Eigen::VectorXd& decode(const Eigen::Ref<const Eigen::VectorXd>& message);
   bool restarted() const { return restarted_; }  ///< for the second reason, ever
 
  private:

@@ -13,7 +13,6 @@ namespace vigil::privacy {
 namespace {
 
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr int kDepth = 5;  // messages that the eavesdropper of a leaking code puts together
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -43,18 +42,19 @@ class SecrecyCode final : public Protection {
         model_(fusion_model(knowledge)),
         code_(params.text("code")),
         loss_(params.real("loss")),
-        draws_(knowledge.seed, "protection.loss") {
-    const StationaryFilters filters = filters_of(model_);
-    codes_ = codes_of(code_, model_, filters);
+        draws_(knowledge.seed, "protection.loss"),
+        filters_(filters_of(model_)),
+        codes_(codes_of(code_, model_, filters_)),
+        steady_(knowledge.stationary) {
     memories_ = std::vector<CodeMemory>(codes_.begin(), codes_.end());
-    message_.resize(model_.states());
     const auto S = state_covariance(model_);
     if (S && knowledge.stationary) prior_trace_ = S->trace();
     if (code_ == "A") {
-      const auto P = code_a_eavesdropper(model_, filters, fuse(filters.P, model_.states()), loss_);
-      if (P) code_a_trace_ = P->trace();
+      if (knowledge.stationary) code_a_.emplace(model_, filters_, loss_);
+      const auto P = code_a_eavesdropper(model_, filters_, fuse(filters_.P, model_.states()), loss_);
+      if (P) lasting_trace_ = P->trace();
     } else {
-      recent_.emplace(model_, filters, *S, codes_, kDepth);
+      recent_.emplace(model_, filters_, *S, codes_, kDepth);
       heard_.assign(static_cast<std::size_t>(kDepth * model_.count()), 0);
     }
   }
@@ -67,6 +67,8 @@ class SecrecyCode final : public Protection {
     }
     heard_now_ = !draws_.bernoulli(tick.k, 0, loss_);
     missed_ = missed_ || !heard_now_;
+    steady_ = steady_ && (tick.settled || stationary(tick, filters_));
+    if (code_a_ && steady_ && tick.k > 0) code_a_->step();
     if (!recent_ || tick.k == 0) return;
     std::rotate(heard_.begin(), heard_.end() - model_.count(), heard_.end());
     std::fill_n(heard_.begin(), model_.count(), static_cast<char>(heard_now_));
@@ -76,8 +78,8 @@ class SecrecyCode final : public Protection {
     Protection::decode(tick, received, lost, decoded);
     for (std::size_t i = 0; i < memories_.size(); ++i) {
       if (lost[i]) continue;
-      message_ = received.col(static_cast<Eigen::Index>(i));
-      decoded.estimates.col(static_cast<Eigen::Index>(i)) = memories_[i].decode(message_);
+      const auto column = static_cast<Eigen::Index>(i);
+      decoded.estimates.col(column) = memories_[i].decode(received.col(column));
     }
   }
 
@@ -89,7 +91,7 @@ class SecrecyCode final : public Protection {
   bool audible(int /*sensor*/) const override { return heard_now_; }
   double eavesdropper_trace(const PublicTick& tick, const std::string& variant) const override {
     if (variant == "zero" || (code_ == "L" && missed_)) return prior_trace_;
-    if (code_ == "A") return code_a_trace_;
+    if (code_ == "A") return code_a_trace(tick);
     return missed_ ? recent_trace() : tick.nominal.P.trace();
   }
 
@@ -117,6 +119,10 @@ class SecrecyCode final : public Protection {
   }
 
  private:
+  double code_a_trace(const PublicTick& tick) const {
+    if (code_a_ && steady_) return code_a_->trace(tick.nominal.W);
+    return tick.settled ? lasting_trace_ : kNone;
+  }
   /// For what this mechanism let through; known as the eavesdropper's figure where all of that was overheard.
   double recent_trace() const {
     const auto found = traces_.find(heard_);
@@ -128,14 +134,17 @@ class SecrecyCode final : public Protection {
   std::string code_;
   double loss_;
   Draws draws_;
+  StationaryFilters filters_;
   std::vector<MatrixXd> codes_;
+  bool steady_;                       ///< every tick so far was in the filters' stationary law
   std::vector<CodeMemory> memories_;  ///< of sensors and user alike
-  double prior_trace_ = kNone, code_a_trace_ = kNone;
+  double prior_trace_ = kNone;
+  std::optional<CodeAError> code_a_;
+  double lasting_trace_ = kNone;  ///< of code A, in the long run
   std::optional<RecentMessages> recent_;
   std::vector<char> heard_;  ///< as RecentMessages has it
   mutable std::map<std::vector<char>, double> traces_;
   bool heard_now_ = true, missed_ = false;
-  VectorXd message_;
 };
 
 const Registration<ProtectionMake> registration({

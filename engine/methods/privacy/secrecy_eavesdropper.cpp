@@ -69,15 +69,17 @@ class CodeLListener final : public Eavesdropper {
       x_.col(static_cast<Eigen::Index>(i)) = memories_[i].decode(messages.col(static_cast<Eigen::Index>(i)));
     }
     if (recent_ && tick.k > 0) keep(messages, heard);
-    const auto following = std::count(follows_.begin(), follows_.end(), 1);
-    if (following == static_cast<std::ptrdiff_t>(follows_.size()))
+    const auto following = static_cast<std::size_t>(std::count(follows_.begin(), follows_.end(), 1));
+    if (following == follows_.size()) {
       estimate_.noalias() = tick.nominal.W * x_.reshaped();
-    else if (recent_)
-      estimate_ = mean_ + gain() * messages_;
-    else if (following == 0)
+    } else if (recent_) {
       estimate_ = mean_;
-    else
+      estimate_.noalias() += gain() * messages_;
+    } else if (following == 0) {
+      estimate_ = mean_;
+    } else {
       fuse_some(tick.P);
+    }
   }
   const VectorXd& estimate() const override { return estimate_; }
 
@@ -90,10 +92,11 @@ class CodeLListener final : public Eavesdropper {
     std::copy(heard.begin(), heard.end(), heard_.begin());
     for (Eigen::Index i = 0; i < x_.cols(); ++i) {
       const auto sensor = static_cast<std::size_t>(i);
-      if (heard[sensor])
-        messages_.segment(i * n, n) = messages.col(i) - (mean_ - Lc_[sensor] * before_);
-      else
-        messages_.segment(i * n, n).setZero();
+      auto mine = messages_.segment(i * n, n);
+      mine.setZero();
+      if (!heard[sensor]) continue;
+      mine.noalias() = Lc_[sensor] * before_;
+      mine += messages.col(i) - mean_;
     }
   }
   const MatrixXd& gain() {

@@ -47,8 +47,7 @@ void first_noise(const TwoStepSettings& settings, TwoStep& design) {
   for (std::size_t i = 0; i < design.V.size(); ++i) {
     const MatrixXd spread = design.Rg[i] * design.Rg[i].transpose();
     const double least = least_eigenvalue(spread);
-    if (!(least > 0))
-      throw InputError(fmt::format("/Rg/{}", i), "a noise gain must be an invertible matrix", "an invertible matrix");
+    if (!(least > 0)) throw InputError("/Rg", "a noise gain must be an invertible matrix", "an invertible matrix");
     design.sigma.push_back(spectral_norm(design.V[i]));
     const double deviation = design.gamma * design.sigma[i] * settings.zeta;
     design.q_xi.push_back(settings.q_xi.empty() ? deviation * deviation / (settings.window * least) : settings.q_xi[i]);

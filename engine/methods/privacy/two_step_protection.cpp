@@ -140,18 +140,25 @@ class TwoStepProtection final : public Protection {
 
   Json design() const override {
     const auto& enough = design_.private_enough;
-    return {{"gamma", design_.gamma},
-            {"epsilon", settings_.epsilon},
-            {"delta", settings_.delta},
-            {"sigma", design_.sigma},
-            {"q_xi", design_.q_xi},
-            {"leak", design_.leak},
-            {"slope", design_.slope},
-            {"dp_ok", std::all_of(enough.begin(), enough.end(), [](bool one) { return one; })},
-            {"W", matrix_json(design_.nominal.W)},
-            {"Wc", matrix_json(design_.compensated.W)},
-            {"views", meter_.design(knowledge_.nodes)},
-            {"views_design_mu", 1 / design_.gamma}};
+    Json design{{"gamma", design_.gamma},
+                {"epsilon", settings_.epsilon},
+                {"delta", settings_.delta},
+                {"sigma", design_.sigma},
+                {"q_xi", design_.q_xi},
+                {"leak", design_.leak},
+                {"slope", design_.slope},
+                {"dp_ok", std::all_of(enough.begin(), enough.end(), [](bool one) { return one; })},
+                {"W", matrix_json(design_.nominal.W)},
+                {"Wc", matrix_json(design_.compensated.W)},
+                {"views", meter_.design(knowledge_.nodes)},
+                {"views_design_mu", 1 / design_.gamma}};
+    for (const LossView& view : meter_.views()) {
+      const auto sensor = static_cast<std::size_t>(view.output);
+      if (view.name == "single")
+        add_releases(design, knowledge_.nodes[sensor], *knowledge_.plant,
+                     design_.Qphi[sensor].diagonal().cwiseMax(0).cwiseSqrt(), view.shift);
+    }
+    return design;
   }
 
   std::vector<std::string> warnings() const override;

@@ -1,4 +1,6 @@
 // Noise for differential privacy as lanes have it, at the sensors and at the centre: sections 3.2-3.5.
+#include <tuple>
+
 #include "engine/core/input_error.hpp"
 #include "engine/methods/privacy/dp_fusion.hpp"
 #include "engine/methods/privacy/published_mean.hpp"
@@ -155,6 +157,47 @@ TEST(DpProtection, WhatACentresGuaranteeCovers) {
   EXPECT_NEAR(mu(enough, "sustained"), 6.22, 5.1e-3);
   EXPECT_EQ(printed["views"]["packets"]["fused"]["infinite"], true);
   EXPECT_NEAR(printed["q"].get<double>(), 2.581896, 5.1e-7);
+}
+
+// Section 3.4: traces over kappa and over epsilon and delta, as figures 3-4 and 3-5 have them.
+TEST(DpProtection, WhatItsParametersCost) {
+  const Json surfaces =
+      rig::protect(rig::knowledge_of_model(privacy::turning_target()), "dp_sensors", kTurn)->design()["surfaces"];
+  const auto at = [](const Json& grid, double value) {
+    const auto values = grid.get<std::vector<double>>();
+    return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
+  };
+  const Json& along = surfaces["kappa"];
+  for (const auto& [kappa, pdfe, cdfe, digit] : {std::tuple{5, 2.130, 1.661, 5.1e-4},
+                                                 {10, 1.0969, 0.8632, 5.1e-5},
+                                                 {20, 0.5805, 0.4645, 5.1e-5},
+                                                 {40, 0.3223, 0.2650, 5.1e-5}}) {
+    EXPECT_NEAR(along["pdfe"].at(at(along["values"], kappa)).get<double>(), pdfe, digit);
+    EXPECT_NEAR(along["cdfe"].at(at(along["values"], kappa)).get<double>(), cdfe, digit);
+  }
+  const Json& plane = surfaces["epsilon_delta"];
+  for (const auto& [epsilon, pdfe, cdfe, digit] :
+       {std::tuple{0.3, 4.727, 3.666, 5.1e-4}, {1.0, 0.6171, 0.4927, 5.1e-5}, {2.0, 0.2458, 0.2059, 5.1e-5}}) {
+    const auto row = at(plane["epsilon"], epsilon), column = at(plane["delta"], 0.1);
+    EXPECT_NEAR(plane["pdfe"].at(row).at(column).get<double>(), pdfe, digit);
+    EXPECT_NEAR(plane["cdfe"].at(row).at(column).get<double>(), cdfe, digit);
+  }
+}
+
+// Figures 3-6 and 3-7.
+TEST(DpProtection, TwoNeighbouringReleases) {
+  const Knowledge known = rig::knowledge_of_model(privacy::turning_target());
+  const Json releases = rig::protect(known, "dp_sensors", kTurn)->design()["releases"];
+  ASSERT_EQ(releases.size(), 5U);
+  EXPECT_NEAR(releases[4]["shift"].get<double>(), 0.0737, 5.1e-5);  // in the worst direction
+  double square = 0;
+  for (int c = 0; c < 4; ++c) {
+    EXPECT_EQ(releases[c]["node"], "fused");
+    EXPECT_NEAR(releases[c]["std"].get<double>(), 0.1607, 5.1e-5);
+    square += std::pow(releases[c]["shift"].get<double>(), 2);
+  }
+  EXPECT_NEAR(std::sqrt(square), 0.0737, 5.1e-5);
+  EXPECT_NEAR(rig::protect(known, "dp_centre", kTurn)->design()["releases"][0]["std"].get<double>(), 1.6068, 5.1e-5);
 }
 
 TEST(DpProtection, NothingToHide) {

@@ -81,16 +81,19 @@ TEST(SecrecyProtection, MessagesLostForLongAreFollowedByOneThatIsNotCoded) {
 
 TEST(SecrecyProtection, ErrorsAreWhatTheTracesSay) {
   const privacy::FusionModel model = privacy::engine_model();
-  rig::expect_no_gap(rig::gaps_of(model, "secrecy_code", {{"code", "A"}}, {80}, 1000));
+  rig::expect_no_gap(rig::gaps_of(model, "secrecy_code", {{"code", "A"}}, {0, 1, 2, 5, 80}, 1000));
   rig::expect_no_gap(rig::gaps_of(model, "secrecy_code", {{"code", "A"}, {"loss", 0.8}}, {80}, 600));
+  const auto turn = rig::gaps_of(privacy::turning_target(), "secrecy_code", {{"code", "A"}}, {0, 1, 3, 30}, 600);
+  rig::expect_no_gap(turn);
+  EXPECT_EQ(turn.size(), 8U);  // of a plant that has no law, too
   rig::expect_no_gap(rig::gaps_of(model, "secrecy_code", {{"code", "L"}}, {0, 1, 4, 20, 40}, 1000));
   rig::expect_no_gap(rig::gaps_of(model, "secrecy_code", {{"code", "L_state"}}, {0, 1, 4, 20, 40}, 1000));
 }
 
 TEST(SecrecyProtection, TracesOfTheEngine) {
   for (const auto& [code, trace, index] : {std::tuple{"A", 0.08961, 3.66}, std::tuple{"L", 0.26958, 5.25}}) {
-    run_engine({{"code", code}}, 60, {}, [&](std::int64_t k, const Method& method, const MatrixXd&, const VectorXd&) {
-      if (k < 60) return;
+    run_engine({{"code", code}}, 800, {}, [&](std::int64_t k, const Method& method, const MatrixXd&, const VectorXd&) {
+      if (k < 800) return;
       const FusionMethod& fusion = *method.fusion();
       const double eavesdropper = fusion.protection().eavesdropper_trace(fusion.public_tick(), "fusing");
       EXPECT_NEAR(eavesdropper, trace, 5.1e-6);

@@ -162,6 +162,15 @@ TEST(TwoStepProtection, Warns) {
   EXPECT_EQ(rig::protect(known, "two_step", {{"q_xi", {0, 0}}})->design()["dp_ok"], false);
 }
 
+TEST(TwoStepProtection, OneSensorAloneHasNoNullSpace) {
+  privacy::FusionModel model = privacy::engine_model();
+  model.sensors.resize(1);
+  const auto protection = rig::protect(rig::knowledge_of_model(model), "two_step");
+  EXPECT_NEAR(protection->design()["leak"].get<double>(), 0, 1e-12);
+  EXPECT_EQ(protection->warnings().size(), 2U);
+  rig::expect_no_gap(rig::gaps_of(model, "two_step", kDefaults, {0, 1, 12}, 300));
+}
+
 TEST(TwoStepProtection, ShowsItsDesign) {
   const Json design = rig::protect(rig::knowledge_of_model(privacy::engine_model()), "two_step")->design();
   EXPECT_NEAR(design["gamma"].get<double>(), 2.179810, 5.1e-7);
@@ -174,6 +183,11 @@ TEST(TwoStepProtection, ShowsItsDesign) {
   EXPECT_NEAR(stream["2"]["eps_at_delta"].get<double>(), 1.18, 5.1e-3);
   EXPECT_NEAR(stream["1"]["p_loss"].get<double>(), 0.481, 0.014);  // the specification sampled it
   EXPECT_EQ(design["dp_ok"], true);
+  ASSERT_EQ(design["releases"].size(), 6U);  // figure 4-4: a message of each sensor, by component
+  const privacy::TwoStep exact = engine_design();
+  EXPECT_EQ(design["releases"][4]["node"], "2");
+  EXPECT_NEAR(design["releases"][4]["std"].get<double>(), std::sqrt(exact.Qphi[1](1, 1)), 1e-12);
+  EXPECT_LT(design["releases"][4]["shift"].get<double>(), design["releases"][4]["std"].get<double>());
 }
 
 TEST(TwoStepProtection, RefusesWhatItCannotDo) {
