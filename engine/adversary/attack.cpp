@@ -9,6 +9,7 @@ void LinkEffects::resize(int message, int links) {
   state.assign(static_cast<std::size_t>(links), LinkState::clean);
   injected = Eigen::MatrixXd::Zero(message, links);
   strength = Eigen::VectorXd::Constant(links, std::numeric_limits<double>::quiet_NaN());
+  playback.assign(static_cast<std::size_t>(links), {});
   overheard.assign(static_cast<std::size_t>(links), 0);
 }
 
@@ -16,18 +17,28 @@ void LinkEffects::clear() {
   std::fill(state.begin(), state.end(), LinkState::clean);
   injected.setZero();
   strength.setConstant(std::numeric_limits<double>::quiet_NaN());
+  std::fill(playback.begin(), playback.end(), Playback{});
   std::fill(overheard.begin(), overheard.end(), 0);
 }
 
 void LinkEffects::jam(int link) {
   state[static_cast<std::size_t>(link)] = LinkState::dos;
   injected.col(link).setZero();
+  playback[static_cast<std::size_t>(link)] = {};
+}
+
+void LinkEffects::play(int link, const Playback& record) {
+  LinkState& mine = state[static_cast<std::size_t>(link)];
+  if (mine == LinkState::dos) return;
+  mine = LinkState::replay;
+  injected.col(link).setZero();
+  playback[static_cast<std::size_t>(link)] = record;
 }
 
 void LinkEffects::inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added, double scale) {
   LinkState& mine = state[static_cast<std::size_t>(link)];
   if (mine == LinkState::dos) return;
-  mine = LinkState::fdi;
+  if (mine != LinkState::replay) mine = LinkState::fdi;
   injected.col(link) += scale * added;
 }
 

@@ -16,13 +16,20 @@ namespace vigil {
 
 enum class LinkState : std::uint8_t { clean = 0, dos = 1, fdi = 2, replay = 3 };
 
+/// A record played back in place of what a sensor or a node sends.
+struct Playback {
+  std::int64_t from = -1, to = -1;  ///< ticks of the record, both ends included
+  std::int64_t source = -1;         ///< the tick of it that is played now; -1: nothing is
+};
+
 /// What happens on every directed channel in one tick: the same for every lane that is not spared.
 struct LinkEffects {
   std::vector<LinkState> state;  ///< one a link
   Eigen::MatrixXd injected;      ///< message size x links; zero where nothing is injected
   Eigen::VectorXd
       strength;  ///< one a link: the attack signal drawn (a DoS has one too), NaN where the attack draws none
-  std::vector<char> overheard;  ///< one a link: somebody hears what is sent, whether it arrives or not
+  std::vector<Playback> playback;  ///< one a link; what is injected is added to it
+  std::vector<char> overheard;     ///< one a link: somebody hears what is sent, whether it arrives or not
 
   void resize(int message, int links);
   void clear();
@@ -30,6 +37,8 @@ struct LinkEffects {
   void jam(int link);
   /// Adds scale * added to what the channel carries, unless it is jammed.
   void inject(int link, const Eigen::Ref<const Eigen::VectorXd>& added, double scale = 1);
+  /// Plays earlier messages back on it and takes off what was injected, unless it is jammed.
+  void play(int link, const Playback& record);
 };
 
 /// Where an attack acts on sensors: a node, and one of its channels or (-1) the whole reading.
@@ -47,12 +56,6 @@ enum class SensorState : std::uint8_t { clean = 0, dos = 1, fdi = 2, replay = 3,
 
 /// The word of a state: "clean", "DoS", "FDI", "replay", "I", "II", "R".
 const char* word(SensorState state);
-
-/// A record played back in place of what a sensor sends.
-struct Playback {
-  std::int64_t from = -1, to = -1;  ///< ticks of the record, both ends included
-  std::int64_t source = -1;         ///< the tick of it that is played now; -1: nothing is
-};
 
 /// What happens to every reading in one tick, on its way to the receivers.
 struct SensorEffects {

@@ -1,5 +1,5 @@
-/// A record of a sensor's readings played back in their place. Seed 003, section 4; specification of seed 003,
-/// section 6.
+/// A record of a sensor's readings, or of a link's messages, played back in their place. Seed 003, section 4;
+/// specification of seed 003, section 6.
 #include <algorithm>
 
 #include "engine/adversary/attack.hpp"
@@ -57,13 +57,16 @@ class Replay final : public Attack {
   Replay(const Params& params, const AttackContext& context) : schedule_(read(params, context)) {}
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Replay>(*this); }
-  bool acts_on(ChannelKind kind) const override { return kind == ChannelKind::sensor; }
+  bool acts_on(ChannelKind kind) const override { return kind != ChannelKind::actuator; }
   std::int64_t start() const override { return schedule_.start; }
   bool active(std::int64_t k) const override { return k >= schedule_.start && (!schedule_.end || k <= *schedule_.end); }
 
+  void act(std::int64_t k, std::span<const int> links, LinkEffects& effects) const override {
+    for (const int link : links) effects.play(link, played(k));
+  }
+
   void tamper(std::int64_t k, std::span<const SensorPlace> places, SensorEffects& effects) const override {
-    const std::int64_t source = schedule_.record_from + (k - schedule_.start) % length();
-    for (const SensorPlace& place : places) effects.play(place, {schedule_.record_from, schedule_.record_to, source});
+    for (const SensorPlace& place : places) effects.play(place, played(k));
   }
 
   std::string remark() const override {
@@ -73,6 +76,9 @@ class Replay final : public Attack {
   }
 
  private:
+  Playback played(std::int64_t k) const {
+    return {schedule_.record_from, schedule_.record_to, schedule_.record_from + (k - schedule_.start) % length()};
+  }
   std::int64_t length() const { return schedule_.record_to - schedule_.record_from + 1; }
   Schedule schedule_;
 };

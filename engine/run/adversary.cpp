@@ -43,7 +43,8 @@ Adversary::Adversary(const Adversary& other)
       message_(other.message_) {
   for (const Entry& e : other.entries_) {
     entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.actuators, e.link_name,
-                        e.node_name, e.from, e.start, e.to, e.enabled, e.by_hand, e.acting});
+                        e.node_name, e.from, e.start, e.to, e.every, e.length, e.budget, e.enabled, e.by_hand,
+                        e.acting});
   }
 }
 
@@ -159,6 +160,11 @@ void Adversary::add(const std::string& id, const Json& document, bool by_hand, c
                      fmt::format("to is {}; the attack would end before it begins, at {}", *entry.to, entry.from),
                      fmt::format(">= {}", entry.from));
   }
+  if (const Json schedule = document.value("schedule", Json(nullptr)); schedule.is_object()) {
+    entry.every = schedule.value("every", Json(nullptr)).is_number() ? schedule["every"].get<std::int64_t>() : 0;
+    entry.length = entry.every > 0 ? schedule["for"].get<std::int64_t>() : 0;
+    entry.budget = schedule.value("budget", Json(nullptr)).is_number() ? schedule["budget"].get<std::int64_t>() : 0;
+  }
   entry.attack = make(entry, entry.params, pointer);
   entry.start = std::max(entry.from, entry.attack->start());
   const auto later = [&](const Entry& other) {
@@ -186,10 +192,19 @@ void Adversary::mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const 
   sink.mark(mark);
 }
 
+bool Adversary::scheduled(const Entry& entry, std::int64_t k) {
+  const std::int64_t since = k - entry.from;
+  const std::int64_t phase = entry.every > 0 ? since % entry.every : since;
+  if (entry.every > 0 && phase >= entry.length) return false;
+  const std::int64_t spent = entry.every > 0 ? since / entry.every * entry.length + phase : since;
+  return entry.budget == 0 || spent < entry.budget;
+}
+
 void Adversary::act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, ActuatorEffects& actuators,
                     Sink& sink) {
   for (Entry& entry : entries_) {
-    const bool acts = entry.enabled && k >= entry.from && (!entry.to || k <= *entry.to) && entry.attack->active(k);
+    const bool acts = entry.enabled && k >= entry.from && (!entry.to || k <= *entry.to) && scheduled(entry, k) &&
+                      entry.attack->active(k);
     if (acts != entry.acting) {
       entry.acting = acts;
       mark_edge(k, entry, sink);

@@ -55,6 +55,8 @@ class Adversary {
     std::int64_t from = 1;
     std::int64_t start = 1;          ///< the later of `from` and what the attack itself says
     std::optional<std::int64_t> to;  ///< last tick it acts
+    /// Acts in the first `length` of every `every` ticks, in `budget` ticks altogether; 0: without such a limit.
+    std::int64_t every = 0, length = 0, budget = 0;
     bool enabled = true;
     bool by_hand = false;
     bool acting = false;
@@ -64,6 +66,7 @@ class Adversary {
   int find_link(const std::string& from, const std::string& to) const;
   /// A sensor's or an actuator's channel, by the names that every node has of its kind.
   SensorPlace find_channel(const Place& place, const std::string& pointer) const;
+  static bool scheduled(const Entry& entry, std::int64_t k);
   void mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const;
   /// The attack itself, with the parameters of `entry`. Throws InputError under `pointer`.
   std::unique_ptr<Attack> make(const Entry& entry, const Json& params, const std::string& pointer) const;

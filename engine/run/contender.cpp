@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace vigil {
 
 Contender::Contender(std::unique_ptr<Method> method, std::unique_ptr<privacy::Protection> protection,
                      const World& world, const Graph& graph, Side side, bool monitor, std::optional<std::int64_t> last)
-    : method_(std::move(method)), protection_(std::move(protection)), side_(side), monitor_(monitor) {
+    : method_(std::move(method)),
+      protection_(std::move(protection)),
+      side_(side),
+      monitor_(monitor),
+      reach_(std::min(last.value_or(SensorChannels::kMemory), SensorChannels::kMemory) + 1) {
   if (side_ != Side::shared) course_ = Course(world);
   if (side_ == Side::marked || side_ == Side::closed) channels_ = SensorChannels(world.sensors, last);
   if (method_->continuous() != nullptr) flow_ = LaneFlow(world, *method_->continuous());
@@ -18,16 +24,29 @@ Contender::Contender(const Contender& other)
       protection_(other.protection_ ? other.protection_->clone() : nullptr),
       side_(other.side_),
       monitor_(other.monitor_),
+      reach_(other.reach_),
       course_(other.course_),
       flow_(other.flow_),
       channels_(other.channels_),
       inbox_(other.inbox_),
-      outbox_(other.outbox_) {}
+      outbox_(other.outbox_),
+      memory_(other.memory_),
+      detections_(other.detections_),
+      has_judged_(other.has_judged_) {
+  for (const auto& detector : other.detectors_) detectors_.push_back(detector->clone());
+}
+
+void Contender::attach(const Detector& detector) {
+  detectors_.clear();
+  for (std::size_t o = 0; o < method_->outputs().size(); ++o) detectors_.push_back(detector.clone());
+  detections_.assign(detectors_.size(), {});
+}
 
 void Contender::make_inbox(const Graph& graph) {
   inbox_.resize(method_->message() > 0 ? graph.links().size() : 0);
   for (Delivery& delivery : inbox_) delivery.payload = Eigen::VectorXd::Zero(method_->message());
   outbox_ = Eigen::MatrixXd::Zero(method_->message(), graph.nodes());
+  if (method_->message() > 0) memory_ = MessageMemory(outbox_.rows(), outbox_.cols(), graph.links().size(), reach_);
 }
 
 void Contender::begin(const Tick& tick, bool attacked, FaultTable& faults) {
@@ -62,6 +81,7 @@ void Contender::tick(const Tick& tick, bool attacked, const SensorEffects& none,
   method_->update(heard, inbox_, faults);
   if (faults.stopped()) return;
   method_->judge(arrived, faults);
+  if (attached()) detect(tick.k);
   if (side_ == Side::closed && tick.world.controller) act(tick.k, tick.world);
 }
 
@@ -108,9 +128,39 @@ void Contender::exchange(const Tick& tick, bool attacked) {
     const int place = tick.base[l];
     const LinkState state = attacked ? tick.links.state[static_cast<std::size_t>(place)] : LinkState::clean;
     delivery.lost = state == LinkState::dos;
-    delivery.flagged = state == LinkState::fdi;
-    delivery.payload = outbox_.col(graph.links()[l].from);
+    delivery.flagged = state == LinkState::fdi || state == LinkState::replay;
+    const int from = graph.links()[l].from;
+    delivery.payload = outbox_.col(from);
+    if (state == LinkState::replay) {
+      const double* played = memory_.play(tick.k, l, from, tick.links.playback[static_cast<std::size_t>(place)]);
+      if (played != nullptr) delivery.payload = Eigen::Map<const Eigen::VectorXd>(played, outbox_.rows());
+    }
     if (delivery.flagged) delivery.payload += tick.links.injected.col(place);  // seed 000, (6)
+  }
+  memory_.note(tick.k, outbox_);
+}
+
+/// Step 5 of attached detectors. A method in continuous time says the norm of its innovation alone.
+void Contender::detect(std::int64_t k) {
+  static const Eigen::MatrixXd kNone;
+  for (std::size_t o = 0; o < detectors_.size(); ++o) {
+    const int output = static_cast<int>(o);
+    const Belief belief = method_->belief(output);
+    const int size = belief.innovation == nullptr ? 0 : belief.innovation_size;
+    const double norm = method_->continuous() == nullptr ? std::nan("") : method_->unknown_inputs(output).innovation;
+    if (size > 0) {
+      const Eigen::Map<const Eigen::VectorXd> innovation(belief.innovation, size);
+      const bool known = belief.innovation_covariance != nullptr;
+      detections_[o] =
+          known ? detectors_[o]->judge(k, innovation,
+                                       Eigen::Map<const Eigen::MatrixXd>(belief.innovation_covariance, size, size))
+                : detectors_[o]->judge(k, innovation, kNone);
+    } else if (std::isfinite(norm)) {
+      detections_[o] = detectors_[o]->judge(k, Eigen::Matrix<double, 1, 1>(norm), kNone);
+    } else {
+      detections_[o] = detectors_[o]->hold();
+    }
+    has_judged_ = has_judged_ || detections_[o].judged;
   }
 }
 

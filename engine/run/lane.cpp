@@ -1,5 +1,7 @@
 #include "engine/run/lane.hpp"
 
+#include <algorithm>
+
 #include "engine/run/lane_scope.hpp"
 #include "engine/run/sensor_signals.hpp"
 
@@ -22,7 +24,7 @@ std::string square_unit(const std::string& unit) { return unit.empty() ? "" : un
 }  // namespace
 
 Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, std::unique_ptr<privacy::Protection> protection,
-           const World& world, const Graph& graph)
+           const Detector* detector, const World& world, const Graph& graph)
     : options_(std::move(options)),
       contender_(std::move(method), std::move(protection), world, graph, options_.side, options_.monitor,
                  options_.last),
@@ -40,7 +42,8 @@ Lane::Lane(LaneOptions options, std::unique_ptr<Method> method, std::unique_ptr<
   recorded_effects_.resize(channels);
   attack_score_ = AttackScore(channels, mine.window(), static_cast<int>(outputs_.size()));
   for (const Component& component : world.plant->state()) periods_.push_back(component.period);
-  if (mine.detects()) detection_.assign(outputs_.size(), {options_.rules.detection_from, mine.tail()});
+  if (detector != nullptr) contender_.attach(*detector);
+  if (contender_.detects()) detection_.assign(outputs_.size(), {options_.rules.detection_from, contender_.tail()});
   if (mine.continuous() != nullptr && world.continuous() != nullptr) {
     ports_ = world.continuous()->ports();
     input_score_ = InputScore(components_, ports_, options_.rules.window);
@@ -122,7 +125,7 @@ void Lane::declare(const World& world, const std::vector<std::string>& nodes, Ca
       slots.nees = scope.add(o, "nees", "", SignalKind::scalar);
       slots.nis = scope.add(o, "nis", "", SignalKind::scalar);
     }
-    if (method().detects()) {
+    if (contender_.detects()) {
       slots.statistic = scope.add(o, "statistic", "", SignalKind::scalar);
       slots.threshold = scope.add(o, "threshold", "", SignalKind::scalar);
       slots.alarm = scope.add(o, "alarm", "", SignalKind::boolean);
@@ -195,7 +198,7 @@ void Lane::judge(const Tick& tick) {
     for (int o = 0; o < static_cast<int>(outputs_.size()); ++o)
       attack_score_.judge(o, method().reconstruction(o), method().choice(o));
   }
-  if (method().detects()) judge_detection(tick);
+  if (contender_.detects()) judge_detection(tick);
   if (!ports_.empty()) {
     const Course& seen = contender_.course(tick.shared);
     for (int o = 0; o < static_cast<int>(outputs_.size()); ++o)
@@ -209,15 +212,31 @@ void Lane::judge(const Tick& tick) {
 }
 
 void Lane::judge_detection(const Tick& tick) {
-  const SensorEffects& truth = effects(tick);
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
     const int output = static_cast<int>(o);
-    const Detection detection = method().detection(output);
+    const Detection detection = contender_.detection(output);
     alarms_[o] = detection.alarm ? 1 : 0;
-    const bool twin_alarm = twin_ && !twin_faults_.stopped() && twin_->method().detection(output).alarm;
-    const bool attacked = o < truth.state.size() && truth.state[o] != SensorState::clean;
-    detection_[o].note(tick.k, attacked, detection.alarm, twin_alarm);
+    const bool twin_alarm = twin_ && !twin_faults_.stopped() && twin_->detection(output).alarm;
+    detection_[o].note(tick.k, attacked(tick, output), detection.alarm, twin_alarm);
   }
+}
+
+/// Something was done to what this output hears in this tick: to its sensor, to a link into it, to an actuator of its
+/// plant; an output that is no node hears them all.
+bool Lane::attacked(const Tick& tick, int output) const {
+  const SensorEffects& sensors = effects(tick);
+  const auto place = static_cast<std::size_t>(output);
+  const bool node = outputs_.size() >= sensors.state.size() && place < sensors.state.size();
+  const auto hit = [](SensorState state) { return state != SensorState::clean; };
+  if (node ? hit(sensors.state[place]) : std::any_of(sensors.state.begin(), sensors.state.end(), hit)) return true;
+  if (options_.spared) return false;
+  if (!ports_.empty() && !tick.world.actuators.pushes.empty()) return true;
+  if (method().message() == 0) return false;
+  for (std::size_t l = 0; l < tick.graph.links().size(); ++l) {
+    const bool here = !node || tick.graph.links()[l].to == output;
+    if (here && tick.links.state[static_cast<std::size_t>(tick.base[l])] != LinkState::clean) return true;
+  }
+  return false;
 }
 
 void Lane::mark_edges(std::int64_t k, Sink& sink) {

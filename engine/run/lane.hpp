@@ -33,9 +33,9 @@ struct LaneOptions {
 
 class Lane {
  public:
-  /// protection: see Contender.
+  /// protection: see Contender. detector: attached to every output; null: none.
   Lane(LaneOptions options, std::unique_ptr<Method> method, std::unique_ptr<privacy::Protection> protection,
-       const World& world, const Graph& graph);
+       const Detector* detector, const World& world, const Graph& graph);
   Lane(const Lane& other);
   Lane(Lane&&) noexcept = default;
 
@@ -59,6 +59,7 @@ class Lane {
   Method& method() { return contender_.method(); }
   const Method& method() const { return contender_.method(); }
   Contender& contender() { return contender_; }
+  const Contender& contender() const { return contender_; }
   /// Where a trace describes the lane's own readings: what happened to them.
   SensorEffects& recorded_effects() { return recorded_effects_; }
   Json& params() { return options_.params; }
@@ -94,6 +95,7 @@ class Lane {
   void listen(const Tick& tick);
   void judge(const Tick& tick);
   void judge_detection(const Tick& tick);
+  bool attacked(const Tick& tick, int output) const;
 
   LaneOptions options_;
   Contender contender_;

@@ -55,7 +55,7 @@ void Lane::publish_output(std::int64_t k, int output, const Eigen::VectorXd& tru
     put(slots.nis, score.nis);
   }
   if (slots.unknown >= 0) publish_unknown(output, values);
-  if (method().detects()) publish_detection(output, values);
+  if (contender_.detects()) publish_detection(output, values);
   square += score.error[0] * score.error[0];
   if (recording_ && k > 0 && belief.covariance != nullptr) {
     const BoundedVector e = state_error(truth, belief.mean, periods_);
@@ -79,7 +79,7 @@ void Lane::publish_unknown(int output, std::span<double> values) const {
 
 void Lane::publish_detection(int output, std::span<double> values) const {
   const Slots& slots = slots_[static_cast<std::size_t>(output)];
-  const Detection detection = method().detection(output);
+  const Detection detection = contender_.detection(output);
   values[static_cast<std::size_t>(slots.statistic)] = detection.statistic;
   values[static_cast<std::size_t>(slots.threshold)] = detection.threshold;
   if (detection.judged) values[static_cast<std::size_t>(slots.alarm)] = detection.alarm ? 1 : 0;

@@ -25,7 +25,20 @@ std::optional<std::int64_t> Run::steps() const { return state_->last_tick; }
 std::int64_t Run::tick() const { return state_->k; }
 
 void Run::step(Sink& sink) {
-  if (!done()) state_->step(sink);
+  if (done()) return;
+  const Trace* trace = state_->trace.get();
+  if (trace != nullptr && trace->grows()) {
+    if (trace->rows() <= state_->k + 1) return;
+    if (state_->k < 0) begin_anew();
+  }
+  state_->step(sink);
+}
+
+/// Estimates and lanes computed elsewhere start from the first row of a trace, which one that grows had not at first.
+void Run::begin_anew() {
+  State& now = *state_;
+  state_ = std::make_unique<State>(
+      now.scenario, RunOptions{now.seed, std::move(now.trace), std::move(now.pending), std::move(now.designs)});
 }
 
 bool Run::done() const {
@@ -83,6 +96,9 @@ std::vector<FaultCount> Run::faults() const {
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> warnings = state_->warnings;
   for (const Lane& lane : state_->lanes) {
+    if (lane.contender().attached() && state_->k > 0 && !lane.contender().has_judged())
+      warnings.push_back("lane " + lane.id() +
+                         ": its detector has had nothing to judge: no innovation with a covariance");
     for (const std::string& warning : lane.method().warnings())
       warnings.push_back("lane " + lane.id() + ": " + warning);
   }

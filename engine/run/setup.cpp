@@ -200,6 +200,7 @@ void Run::State::declare_signals() {
     for (const Component& c : world.plant->state())
       add("link." + id + ".injected." + c.name, c.unit, SignalKind::scalar, "", id);
     add("link." + id + ".strength", "", SignalKind::scalar, "", id);
+    add("link." + id + ".source", "", SignalKind::scalar, "", id);
     add("link." + id + ".overheard", "", SignalKind::boolean, "", id);
   }
   for (Lane& lane : lanes) lane.declare(world, nodes, catalogue);

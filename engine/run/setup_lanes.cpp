@@ -85,6 +85,20 @@ void check_protected(const privacy::Protection& protection, const Method& method
         "gaussian_noise");
 }
 
+/// Null where the lane has none attached.
+std::unique_ptr<Detector> make_detector(const Json& lane, const std::string& pointer, const Method& method) {
+  const Json given = lane.value("detector", Json::object());
+  const std::string type = given.value("type", "none"), at = pointer + "/detector/type";
+  if (type == "none") return nullptr;
+  const std::string name = lane["method"];
+  if (method.detects())
+    throw InputError(at, fmt::format("\"{}\" has a detector of its own; expected none", name), "none");
+  if (lane.value("path", "loop") == "monitor")
+    throw InputError(at, "on the path monitor the estimator does not hear what arrives; expected path loop", "none");
+  const auto& entry = entry_of<DetectorMake>(type, at);
+  return under(pointer + "/detector/params", [&] { return entry.make(Params(given["params"])); });
+}
+
 }  // namespace
 
 Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, Knowledge& knowledge) {
@@ -92,9 +106,10 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, Knowledge& kn
   const int n = world.plant->states();
   Eigen::VectorXd& truth = shared.truth;
   const Json given_truth = initial.value("truth", Json(nullptr));
-  truth = Eigen::VectorXd::Constant(n, trace ? kMissing : 0.0);
-  for (int c = 0; trace && c < n; ++c) truth[c] = trace->at(0, columns.shared.truth[static_cast<std::size_t>(c)]);
-  const bool recorded = trace && truth.allFinite();
+  const bool begun = trace && trace->rows() > 0;  // one that grows may not have: then the run is made anew when it has
+  truth = Eigen::VectorXd::Constant(n, begun ? kMissing : 0.0);
+  for (int c = 0; begun && c < n; ++c) truth[c] = trace->at(0, columns.shared.truth[static_cast<std::size_t>(c)]);
+  const bool recorded = begun && truth.allFinite();
   if (!given_truth.is_null() && !recorded) truth = read_vector(given_truth, n, "/initial/truth");
 
   const Json estimates = initial.value("estimates", Json(nullptr));
@@ -137,12 +152,12 @@ Eigen::MatrixXd Run::State::initial_estimates(const Json& initial, Knowledge& kn
 /// Which plant a lane sees. A trace with readings of the lane's own takes the place of the plant it would control; one
 /// without drives it open loop, and what its sensors add is added to the trace's readings. In continuous time attacks
 /// act on the plant itself: a lane that is spared has one that they do not reach.
-Contender::Side Run::State::side_of(const std::string& lane, const Method& method, bool spared) const {
+Contender::Side Run::State::side_of(const std::string& lane, const Method& method, bool spared, bool judged) const {
   if (trace && course_columns("lane." + lane + ".").readings) return Contender::Side::recorded;
   if (trace) return method.marks() ? Contender::Side::marked : Contender::Side::shared;
   if (world.controller || (world.continuous() != nullptr && spared)) return Contender::Side::closed;
   if (world.continuous() != nullptr && method.continuous() != nullptr) return Contender::Side::shared;
-  return method.marks() || method.detects() ? Contender::Side::marked : Contender::Side::shared;
+  return method.marks() || method.detects() || judged ? Contender::Side::marked : Contender::Side::shared;
 }
 
 void Run::State::set_lanes(const Json& document) {
@@ -187,8 +202,9 @@ void Run::State::set_lanes(const Json& document) {
     auto made = under(pointer + "/params", [&] { return entry.make(Params(lane["params"]), knowledge); });
     if (protection) check_protected(*protection, *made, lane, pointer);
     if (made->fusion() != nullptr) protection.reset();  // the method encodes and decodes by itself
-    options.side = side_of(id, *made, options.spared);
-    lanes.emplace_back(std::move(options), std::move(made), std::move(protection), world, graph);
+    const auto detector = make_detector(lane, pointer, *made);
+    options.side = side_of(id, *made, options.spared, detector != nullptr);
+    lanes.emplace_back(std::move(options), std::move(made), std::move(protection), detector.get(), world, graph);
   }
   if (lanes.empty()) throw InputError("/lanes", "no lane is enabled; a run needs one");
   for (const Lane& lane : lanes) {
@@ -205,7 +221,7 @@ void Run::State::set_recorded_lanes() {
     options.spared = true;
     options.params = Json::object();
     options.rules = rules;
-    lanes.emplace_back(std::move(options), std::move(recorded.method), nullptr, world, graph);
+    lanes.emplace_back(std::move(options), std::move(recorded.method), nullptr, nullptr, world, graph);
   }
 }
 

@@ -27,7 +27,7 @@ struct TraceColumns {
   CourseColumns shared;
   std::vector<CourseColumns> lanes;        ///< by lane; of the recorded side only
   std::vector<int> link_state;             ///< base link
-  std::vector<int> overheard;              ///< base link
+  std::vector<int> source, overheard;      ///< base link
   std::vector<std::vector<int>> injected;  ///< base link, component
 };
 
@@ -35,7 +35,7 @@ struct TraceColumns {
 struct WorldSlots {
   int truth = 0, input = 0;
   int sensor = 0;           ///< of all nodes: see sensor_signals.hpp
-  std::vector<int> link;    ///< state, then injected components, strength, overheard; one a base link
+  std::vector<int> link;    ///< state, then injected components, strength, source, overheard; one a base link
   std::vector<int> drives;  ///< by the plant's ports, -1 for known inputs; empty: not in continuous time
 };
 
@@ -96,7 +96,7 @@ struct Run::State {
   void set_nodes(const Json& document);
   void set_noise(const Json& document);
   CourseColumns course_columns(const std::string& prefix) const;
-  Contender::Side side_of(const std::string& lane, const Method& method, bool spared) const;
+  Contender::Side side_of(const std::string& lane, const Method& method, bool spared, bool judged) const;
 
   void begin(Sink& sink);
   void begin_flow();

@@ -155,6 +155,12 @@ void Run::State::override_links() {
       if (columns.link_state[l] < 0 && effects.injected(c, link) != 0) effects.state[l] = LinkState::fdi;
     }
     effects.strength[link] = kMissing;
+    effects.playback[l] = {};
+    const double source = columns.source[l] < 0 ? kMissing : trace->at(k, columns.source[l]);
+    if (source >= 0 && source < static_cast<double>(k)) {
+      const auto tick = static_cast<std::int64_t>(source);
+      effects.playback[l] = {tick, tick, tick};
+    }
   }
 }
 
@@ -180,7 +186,9 @@ void Run::State::publish_links() {
     const Eigen::Index n = effects.injected.rows();
     for (Eigen::Index c = 0; c < n; ++c) values[slot + 1 + c] = effects.injected(c, link);
     values[slot + 1 + n] = effects.strength[link];
-    values[slot + 2 + n] = effects.overheard[l];
+    const std::int64_t source = effects.playback[l].source;
+    if (source >= 0) values[slot + 2 + n] = static_cast<double>(source);
+    values[slot + 3 + n] = effects.overheard[l];
   }
 }
 

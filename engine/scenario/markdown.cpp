@@ -2,6 +2,7 @@
 
 #include "engine/adversary/attack.hpp"
 #include "engine/core/expectation.hpp"
+#include "engine/methods/detectors/detector.hpp"
 #include "engine/methods/privacy/protection.hpp"
 #include "engine/world/controller.hpp"
 #include "engine/world/plant.hpp"
@@ -63,6 +64,7 @@ std::string parameters_markdown() {
   text += kind<ControllerMake>("Controllers", "`controller.type` and `.params`; `none` has none.");
   text += kind<MethodMake>("Methods", "`lanes.<id>.method` and `.params`.");
   text += kind<ProtectionMake>("Protections", "`lanes.<id>.protection.type` and `.params`; `none` has none.");
+  text += kind<DetectorMake>("Detectors", "`lanes.<id>.detector.type` and `.params`; `none` has none.");
   text.pop_back();
   return text;
 }

@@ -1,4 +1,5 @@
 #include "engine/adversary/attack.hpp"
+#include "engine/methods/detectors/detector.hpp"
 #include "engine/methods/privacy/protection.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/world/controller.hpp"
@@ -38,10 +39,15 @@ Json laws() {
 }  // namespace
 
 Json registry_json() {
-  return {{"methods", kind_json<MethodMake>()},           {"protections", kind_json<ProtectionMake>()},
-          {"attacks", kind_json<AttackMake>()},           {"plants", kind_json<PlantMake>()},
-          {"sensors", kind_json<SensorMake>()},           {"controllers", kind_json<ControllerMake>()},
-          {"signals", kind_json<observer::SignalMake>()}, {"laws", laws()}};
+  return {{"methods", kind_json<MethodMake>()},
+          {"protections", kind_json<ProtectionMake>()},
+          {"detectors", kind_json<DetectorMake>()},
+          {"attacks", kind_json<AttackMake>()},
+          {"plants", kind_json<PlantMake>()},
+          {"sensors", kind_json<SensorMake>()},
+          {"controllers", kind_json<ControllerMake>()},
+          {"signals", kind_json<observer::SignalMake>()},
+          {"laws", laws()}};
 }
 
 }  // namespace vigil

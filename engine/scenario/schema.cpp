@@ -1,6 +1,7 @@
 /// The JSON Schema of scenario documents, made from the declared parameters: what forms, editors and other programs
 /// read.
 #include "engine/adversary/attack.hpp"
+#include "engine/methods/detectors/detector.hpp"
 #include "engine/methods/privacy/protection.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/scenario/schema_leaf.hpp"
@@ -167,6 +168,12 @@ Json attack() {
                       "作用位置：link:<from>-<to>、link:*、sensor:<node>[.<channel>] 或 actuator:<node>[.<channel>]"})},
        {"from", leaf(tick(0, false), {"First tick", "起始步"}, 1)},
        {"to", leaf(tick(0, true), {"Last tick; none: to the end", "结束步；无：直至结束"}, nullptr)},
+       {"schedule",
+        leaf(object(
+                 {{"every", leaf(tick(1, true), {"Period, ticks", "周期（步）"}, nullptr)},
+                  {"for", leaf(tick(1, true), {"Ticks of every period in which it acts", "每周期内作用步数"}, nullptr)},
+                  {"budget", leaf(tick(1, true), {"Ticks in which it acts altogether", "作用总步数上限"}, nullptr)}}),
+             {"Bursts and budget; none: all the time", "间歇与预算；无：持续作用"})},
        {"enabled", std::move(enabled)},
        {"params", params_slot()}},
       Json::array({"type", "on"}));
@@ -174,14 +181,16 @@ Json attack() {
   return result;
 }
 
-Json protection() {
-  std::vector<std::string> kinds = Registry<ProtectionMake>::ids();
-  kinds.insert(kinds.begin(), "none");
-  Json result = object({{"type", leaf(choice(kinds), {"Protection", "隐私保护"}, "none")}, {"params", params_slot()}});
-  for (const auto& entry : Registry<ProtectionMake>::all())
+/// "none", or one of a registry with its params.
+template <class Make>
+Json optional(const std::string& kind, const Words& type, const Words& words) {
+  std::vector<std::string> ids = Registry<Make>::ids();
+  ids.insert(ids.begin(), "none");
+  Json result = object({{"type", leaf(choice(ids), type, "none")}, {"params", params_slot()}});
+  for (const auto& entry : Registry<Make>::all())
     result["properties"]["type"]["x-labels"][entry.id] = {{"en", entry.title.en}, {"zh", entry.title.zh}};
-  result["allOf"] = branches<ProtectionMake>("protection", "type");
-  return leaf(std::move(result), {"What hides the lane's messages", "报文的隐私保护机制"});
+  result["allOf"] = branches<Make>(kind, "type");
+  return leaf(std::move(result), words);
 }
 
 Json lane() {
@@ -191,7 +200,10 @@ Json lane() {
        {"adversary", leaf(boolean(), {"Meets the adversary", "受攻击者影响"}, true)},
        {"enabled", leaf(boolean(), {"Runs", "启用"}, true)},
        {"params", params_slot()},
-       {"protection", protection()}},
+       {"protection", optional<ProtectionMake>("protection", {"Protection", "隐私保护"},
+                                               {"What hides the lane's messages", "报文的隐私保护机制"})},
+       {"detector", optional<DetectorMake>("detector", {"Detector", "检测器"},
+                                           {"What judges the lane's innovation", "对新息进行判决的检测器"})}},
       Json::array({"method"}));
   result["allOf"] = branches<MethodMake>("method", "method");
   return result;
@@ -239,11 +251,6 @@ Json log() {
 
 Json properties(const Json& document) {
   const Json id = {{"type", "string"}, {"pattern", "^[a-z0-9][a-z0-9-]{0,63}$"}};
-  std::vector<std::string> controllers = Registry<ControllerMake>::ids();
-  controllers.insert(controllers.begin(), "none");
-  Json controller =
-      object({{"type", leaf(choice(controllers), {"Controller", "控制器"}, "none")}, {"params", params_slot()}});
-  controller["allOf"] = branches<ControllerMake>("controller", "type");
   return {{"vigil", leaf({{"const", 1}}, {"Version of the format", "格式版本"})},
           {"id", leaf(id, {"Id", "标识"})},
           {"title", title()},
@@ -253,7 +260,7 @@ Json properties(const Json& document) {
           {"profile", leaf(text(), {"Profile", "参数组"}, "")},
           {"time", time()},
           {"plant", typed<PlantMake>("plant", {"Plant", "被控对象"})},
-          {"controller", leaf(controller, {"Controller", "控制器"})},
+          {"controller", optional<ControllerMake>("controller", {"Controller", "控制器"}, {"Controller", "控制器"})},
           {"nodes", leaf(schema::map("^[A-Za-z0-9_]{1,16}$", node(), 1, section::kMostNodes), {"Nodes", "节点"})},
           {"network", network()},
           {"noise", noise()},
@@ -280,6 +287,7 @@ Json Scenario::schema() const {
   define<AttackMake>("attack", definitions);
   define<MethodMake>("method", definitions);
   define<ProtectionMake>("protection", definitions);
+  define<DetectorMake>("detector", definitions);
   define<observer::SignalMake>("signal", definitions);
   result["$defs"] = std::move(definitions);
   return result;

@@ -75,6 +75,21 @@ Json places(Fields& fields, const Json& document, std::vector<Problem>& problems
   return result;
 }
 
+/// When within its time an attack acts.
+Json schedule(const Json& given, const std::string& pointer, std::vector<Problem>& problems) {
+  Fields fields(given, pointer, problems);
+  if (!given.is_object()) return nullptr;
+  fields.known({"every", "for", "budget"});
+  Json result = {{"every", fields.integer("every", nullptr, 1, true)},
+                 {"for", fields.integer("for", nullptr, 1, true)},
+                 {"budget", fields.integer("budget", nullptr, 1, true)}};
+  if (result["every"].is_null() != result["for"].is_null())
+    fields.wrong(result["for"].is_null() ? "for" : "every", "a number of ticks, since the other one is given");
+  if (result["every"].is_number() && result["for"].is_number() && result["for"] > result["every"])
+    fields.wrong("for", "at most every (" + result["every"].dump() + ")");
+  return result;
+}
+
 }  // namespace
 
 Json complete_attack(const Json& given, const Json& document, const std::string& pointer,
@@ -85,7 +100,7 @@ Json complete_attack(const Json& given, const Json& document, const std::string&
   if (problems.size() > before) return result;
   Fields fields(given, pointer, problems);
   if (!given.is_object()) return result;
-  fields.known({"type", "on", "from", "to", "enabled", "params"});
+  fields.known({"type", "on", "from", "to", "schedule", "enabled", "params"});
   Json typed = Json::object();
   section::complete_typed<AttackMake>(fields, "type", "attack", typed, problems);
   result["type"] = typed.value("type", Json(""));
@@ -95,6 +110,8 @@ Json complete_attack(const Json& given, const Json& document, const std::string&
   if (result["to"].is_number() && result["to"] < result["from"]) {
     fields.wrong("to", "a tick not before from (" + result["from"].dump() + ") or null");
   }
+  if (fields.has("schedule") && !fields.at("schedule").is_null())
+    result["schedule"] = schedule(fields.at("schedule"), fields.pointer("schedule"), problems);
   result["enabled"] = fields.boolean("enabled", true);
   result["params"] = typed.value("params", Json::object());
   return result;

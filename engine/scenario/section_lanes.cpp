@@ -1,5 +1,6 @@
 /// The contenders.
 #include "engine/core/describe.hpp"
+#include "engine/methods/detectors/detector.hpp"
 #include "engine/methods/privacy/protection.hpp"
 #include "engine/scenario/fields.hpp"
 #include "engine/scenario/sections.hpp"
@@ -8,8 +9,9 @@
 namespace vigil::section {
 namespace {
 
-/// {"type":"none"} or a registered protection with its params.
-Json protection(const Json& given, const std::string& pointer, std::vector<Problem>& problems) {
+/// {"type":"none"} or a registered protection or detector with its params.
+template <class Make>
+Json optional(const char* kind, const Json& given, const std::string& pointer, std::vector<Problem>& problems) {
   Json result = {{"type", "none"}};
   Fields fields(given, pointer, problems);
   if (!given.is_object()) return result;
@@ -18,7 +20,7 @@ Json protection(const Json& given, const std::string& pointer, std::vector<Probl
     return result;
   }
   fields.known({"type", "params"});
-  complete_typed<ProtectionMake>(fields, "type", "protection", result, problems);
+  complete_typed<Make>(fields, "type", kind, result, problems);
   return result;
 }
 
@@ -26,7 +28,7 @@ Json lane(const Json& given, const std::string& pointer, std::vector<Problem>& p
   Json result = Json::object();
   Fields fields(given, pointer, problems);
   if (!given.is_object()) return result;
-  fields.known({"method", "path", "adversary", "enabled", "params", "protection"});
+  fields.known({"method", "path", "adversary", "enabled", "params", "protection", "detector"});
   Json typed = Json::object();
   complete_typed<MethodMake>(fields, "method", "method", typed, problems);
   result["method"] = typed.value("method", Json(""));
@@ -35,7 +37,11 @@ Json lane(const Json& given, const std::string& pointer, std::vector<Problem>& p
   result["enabled"] = fields.boolean("enabled", true);
   result["params"] = typed.value("params", Json::object());
   if (fields.has("protection"))
-    result["protection"] = protection(fields.at("protection"), fields.pointer("protection"), problems);
+    result["protection"] =
+        optional<ProtectionMake>("protection", fields.at("protection"), fields.pointer("protection"), problems);
+  if (fields.has("detector"))
+    result["detector"] =
+        optional<DetectorMake>("detector", fields.at("detector"), fields.pointer("detector"), problems);
   return result;
 }
 
