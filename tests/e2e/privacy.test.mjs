@@ -286,8 +286,10 @@ describe('the privacy family', () => {
     const view = await open('privacy-turn', '&lane=dp_uniform');
     const place = panel(view.page, 'Noise and error');
     await place.getByRole('img', { name: /^Traces over κ/ }).waitFor();
+    await place.getByRole('button', { name: 'PDFE over ε, δ' }).click();
     await place.getByRole('img', { name: /^Trace of eavesdropper \(PDFE\) over ε and δ.*: yes$/ }).waitFor();
-    await place.getByRole('button', { name: 'CDFE' }).click();
+    await place.getByRole('button', { name: 'CDFE over ε, δ' }).click();
+    await until('the address has it', () => query(view.page, 'surface') === 'cdfe');
     await place.getByRole('img', { name: /^Trace of user \(CDFE\) over ε and δ.*: yes$/ }).waitFor();
     const { rows } = await tableOf(view.page, 'Noise and error');
     const all = [...surfaces.kappa.values.map((_, i) => [surfaces.kappa.pdfe[i], surfaces.kappa.cdfe[i]]), ...surfaces.epsilon_delta.epsilon.flatMap((_, i) => surfaces.epsilon_delta.delta.map((__, j) => [surfaces.epsilon_delta.pdfe[i][j], surfaces.epsilon_delta.cdfe[i][j]]))];

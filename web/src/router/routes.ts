@@ -18,6 +18,7 @@ export const routes: Route[] = [
   { pattern: '/live/:id', section: 'live', load: () => import('../pages/live/LivePage.svelte') },
   { pattern: '/runs', section: 'runs', load: () => import('../pages/runs/RunsPage.svelte') },
   { pattern: '/runs/:id', section: 'runs', load: () => import('../pages/live/LivePage.svelte') },
+  { pattern: '/compare', section: 'runs', load: () => import('../pages/compare/ComparePage.svelte') },
   { pattern: '/scenarios', section: 'scenarios', load: () => import('../pages/scenarios/ScenariosPage.svelte') },
   { pattern: '/scenarios/:id', section: 'scenarios', load: () => import('../pages/scenarios/ScenarioPage.svelte') },
   { pattern: '/system', section: 'scenarios', load: () => import('../pages/system/SystemPage.svelte') },

@@ -5,6 +5,7 @@ export const zh: Translation<typeof en> = {
   run: '运行 {id}',
   seed: '种子 {seed}',
   forked: '自运行 {run} 的 k = {k} 分叉',
+  compare_origin: '与来源对比',
   no_run: '未指定运行',
   no_run_why: '此服务器没有演示运行。请启动一个场景，或选择一个运行。',
   to_runs: '打开运行列表',

@@ -26,9 +26,9 @@ export function hasMessages(_: RunDetail, model: RunModel): boolean {
 
 type Size = readonly [columns: number, rows: number];
 
-/** Without a guarantee paths have room; with surfaces four panels share the last row. */
+/** Without a guarantee paths have room; with surfaces messages stand beside the errors. */
 const withoutGuarantee: Readonly<Record<string, Size>> = { tracks: [5, 2], messages: [8, 1] };
-const withSurfaces: Readonly<Record<string, Size>> = { tracks: [4, 1], squares: [8, 1], releases: [3, 1], surfaces: [3, 1], messages: [3, 1], events: [3, 1] };
+const withSurfaces: Readonly<Record<string, Size>> = { tracks: [4, 1], squares: [5, 1], messages: [3, 1], releases: [4, 1], surfaces: [5, 1], events: [3, 1] };
 
 export function sizeIn(panel: string): (run: RunDetail, model: RunModel) => Size | null {
   return (run, model) => {

@@ -17,7 +17,7 @@ import { placesOf } from './network_draw';
 import { independent, normalDensity, wilson } from './normal';
 import { sceneOf } from './releases_draw';
 import { sentencesOf, type LaneFacts } from './sentences';
-import { falls } from './surfaces_draw';
+import { falls, indexOf } from './surfaces_draw';
 import { boxOf, type Path } from './tracks_draw';
 import { t } from './words';
 
@@ -44,7 +44,7 @@ describe('a fusion centre', () => {
     };
     expect(shown(['contamination', 'complex_noise'])).toMatchObject({ tracks: [5, 2], messages: [8, 1], events: [4, 1] });
     expect(shown(['contamination'])).not.toHaveProperty('guarantee');
-    expect(shown(['dp_centre', 'dp_sensors'])).toMatchObject({ surfaces: [3, 1], events: [3, 1], guarantee: [5, 1] });
+    expect(shown(['dp_centre', 'dp_sensors'])).toMatchObject({ surfaces: [5, 1], events: [3, 1], guarantee: [5, 1] });
   });
 
   it('has curves of the user, what is best, the nodes and all who listen', () => {
@@ -200,6 +200,7 @@ describe('a design', () => {
     expect(of(surfaces).kappa?.pdfe).toEqual([2.13, 1.097, 0.5805]);
     expect(falls(of(surfaces).plane!.pdfe)).toBe(true);
     expect(falls([[1, 2]])).toBe(false);
+    expect([indexOf([1, 2, 4], 2), indexOf([1, 4, 16], 2), indexOf([1, 2, 4], 5), indexOf([1], 1), indexOf([], 1)]).toEqual([1, 0.5, null, 0, null]);
     expect(of({ kappa: { ...surfaces.kappa, cdfe: [1] } }).kappa).toBeNull();
     expect(of({ epsilon_delta: { ...surfaces.epsilon_delta, pdfe: [[1]] } }).plane).toBeNull();
   });

@@ -93,8 +93,8 @@ export function drawPlane(context: CanvasRenderingContext2D, width: number, heig
   const words = matrix.map((row) => row.map((value) => formatNumber(value, 2)));
   context.font = "10px 'IBM Plex Mono', monospace";
   const fits = h >= 12 && words.flat().every((word) => context.measureText(word).width < w - 3);
-  plane.epsilon.forEach((epsilon, i) =>
-    plane.delta.forEach((delta, j) => {
+  plane.epsilon.forEach((_, i) =>
+    plane.delta.forEach((__, j) => {
       const value = matrix[i]![j]!;
       const share = most > least ? Math.log(value / least) / Math.log(most / least) : 0;
       // Larger delta is further up.
@@ -103,20 +103,32 @@ export function drawPlane(context: CanvasRenderingContext2D, width: number, heig
       context.fillStyle = colour(token);
       context.fillRect(x, y, w - 1, h - 1);
       context.globalAlpha = 1;
-      if (near(epsilon, own.epsilon) && near(delta, own.delta)) {
-        context.strokeStyle = colour('ink');
-        context.lineWidth = 1.6;
-        context.strokeRect(x + 0.5, y + 0.5, w - 2, h - 2);
-      }
       context.fillStyle = colour('ink');
       if (fits) context.fillText(words[i]![j]!, x + w / 2, y + h / 2);
     }),
   );
+  drawOwn(context, plane, own, w, h);
   drawNames(context, height, plane, w, h);
 }
 
-function near(value: number, own: number | null): boolean {
-  return own !== null && Math.abs(value - own) <= 1e-6 * Math.abs(own);
+/** Where a value is among growing ones, in steps of them and by its logarithm between two; null outside. */
+export function indexOf(values: readonly number[], value: number): number | null {
+  const above = values.findIndex((one) => one >= value);
+  if (above < 0 || (above === 0 && values[0] !== value)) return null;
+  if (values[above] === value) return above;
+  const [a, b] = [values[above - 1]!, values[above]!];
+  return above - 1 + Math.log(value / a) / Math.log(b / a);
+}
+
+/** A ring where the lane itself is. */
+function drawOwn(context: CanvasRenderingContext2D, plane: Plane, own: { epsilon: number | null; delta: number | null }, w: number, h: number): void {
+  const [i, j] = [own.epsilon === null ? null : indexOf(plane.epsilon, own.epsilon), own.delta === null ? null : indexOf(plane.delta, own.delta)];
+  if (i === null || j === null) return;
+  context.strokeStyle = colour('ink');
+  context.lineWidth = 2;
+  context.beginPath();
+  context.arc(room.left + (i + 0.5) * w, room.top + (plane.delta.length - 0.5 - j) * h, 7, 0, 2 * Math.PI);
+  context.stroke();
 }
 
 function drawNames(context: CanvasRenderingContext2D, height: number, plane: Plane, w: number, h: number): void {
