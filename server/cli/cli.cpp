@@ -59,9 +59,11 @@ int run_command_line(int argc, char** argv) {
   add_serve(app, action);
   add_run(app, action);
   add_campaign(app, action);
+  add_compare(app, action);
   add_synthesize(app, action);
   add_lists(app, action);
   add_trace(app, action);
+  add_identify(app, action);
   add_db(app, action);
   add_solver(app, action);
   if (const std::string sentence = unknown_command(app, argc, argv); !sentence.empty())

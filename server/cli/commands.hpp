@@ -25,9 +25,11 @@ using Action = std::function<int()>;
 void add_serve(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_campaign(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
 void add_synthesize(CLI::App& app, Action& action);
 void add_lists(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
+void add_identify(CLI::App& app, Action& action);
 void add_db(CLI::App& app, Action& action);
 /// Not shown: what the server starts as its child.
 void add_solver(CLI::App& app, Action& action);

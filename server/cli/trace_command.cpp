@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "engine/identify/mapping.hpp"
 #include "engine/run/mrclam.hpp"
 #include "server/cli/commands.hpp"
 #include "server/cli/files.hpp"
@@ -31,6 +32,37 @@ int mrclam(const MrclamCommand& command) {
   return kDone;
 }
 
+struct TableCommand {
+  std::string file, scenario, map, out;
+};
+
+/// The mapping that a scenario keeps, or one in a file of its own.
+identify::Mapping find_mapping(const TableCommand& command) {
+  if (!command.map.empty()) return identify::read_mapping(read_json(command.map), "");
+  if (command.scenario.empty()) throw UserError("no mapping is given; expected --scenario FILE or --map FILE");
+  const Json document = read_json(command.scenario);
+  const Json::json_pointer place("/view/mapping");
+  if (!document.contains(place))
+    throw UserError(command.scenario +
+                    " has no view.mapping; expected a scenario made by vigil identify, or --map FILE");
+  return identify::read_mapping(document.at(place), "/view/mapping");
+}
+
+int table(const TableCommand& command) {
+  write_text(command.out, identify::table_to_trace(read_text(command.file), find_mapping(command)));
+  return kDone;
+}
+
+void add_table(CLI::App& trace, Action& action) {
+  auto command = std::make_shared<TableCommand>();
+  CLI::App* sub = trace.add_subcommand("table", "any table, its columns mapped to signals");
+  sub->add_option("FILE", command->file, "the table: a header of names, one row a tick")->required();
+  sub->add_option("--scenario", command->scenario, "scenario whose view.mapping is used");
+  sub->add_option("--map", command->map, "mapping: {\"columns\":{SIGNAL:COLUMN},…}");
+  sub->add_option("--out", command->out, "the trace; - for standard output")->required();
+  sub->callback([command, &action] { action = [command] { return table(*command); }; });
+}
+
 }  // namespace
 
 void add_trace(CLI::App& app, Action& action) {
@@ -43,6 +75,7 @@ void add_trace(CLI::App& app, Action& action) {
   sub->add_option("--dt", command->dt, "seconds a tick")->required()->check(CLI::Range(0.001, 100.0));
   sub->add_option("--out", command->out, "the trace; - for standard output")->required();
   sub->callback([command, &action] { action = [command] { return mrclam(*command); }; });
+  add_table(*trace, action);
 }
 
 }  // namespace vigil
