@@ -54,7 +54,8 @@ Json to_json(const FaultCount& fault);
 
 struct RunOptions {
   std::uint64_t seed = 1;
-  std::shared_ptr<const Trace> trace;  ///< takes the place of the world; may be null
+  std::shared_ptr<const Trace> trace;  ///< takes the place of the world; may be null. One that grows is appended to
+                                       ///< between two steps, on the thread that makes them
   std::vector<Command> commands;       ///< of an earlier run that is repeated
   Json designs = Json::object();       ///< {"<lane>":record} for every task of design_tasks(); see run/design.hpp
 };
@@ -76,7 +77,8 @@ class Run {
   double dt() const;                          ///< s
   std::optional<std::int64_t> steps() const;  ///< last tick, empty: until stopped
 
-  /// Emits frame 0 at the first call, then one tick a call. Does nothing once done().
+  /// Emits frame 0 at the first call, then one tick a call. Does nothing once done(), nor on a trace that grows before
+  /// the tick's row is there. Throws InputError where the first row of such a trace does not fit the scenario.
   void step(Sink& sink);
   std::int64_t tick() const;  ///< k of the newest frame, -1 before the first
   bool done() const;          ///< all steps made, the trace at its end, or every lane stopped
@@ -100,6 +102,8 @@ class Run {
  private:
   friend struct TrialAccess;
   struct State;
+  void begin_anew();
+
   std::unique_ptr<State> state_;
 };
 

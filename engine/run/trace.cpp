@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "engine/core/describe.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMostColumns = 100'000;
 constexpr std::size_t kLongestName = 256;
+constexpr std::int64_t kRemembered = 16;  ///< rows of a trace that grows
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view trimmed(std::string_view cell) {
@@ -217,14 +219,36 @@ class TraceReader {
 
 Trace Trace::from_csv(std::string_view text, std::size_t max_cells) { return TraceReader(text, max_cells).read(); }
 
+Trace Trace::growing(std::vector<std::string> columns) {
+  Trace trace;
+  trace.grows_ = true;
+  trace.columns_ = std::move(columns);
+  for (std::size_t c = 0; c < trace.columns_.size(); ++c) {
+    if (!is_name(trace.columns_[c]) || !trace.index_.emplace(trace.columns_[c], static_cast<int>(c)).second)
+      throw std::logic_error("a column without a name of its own: " + trace.columns_[c]);
+  }
+  trace.cells_.reserve(trace.columns_.size() * static_cast<std::size_t>(kRemembered + 1));
+  return trace;
+}
+
+void Trace::append(std::span<const double> cells) {
+  if (!grows_ || cells.size() != columns_.size()) throw std::logic_error("a row that this trace cannot take");
+  cells_.insert(cells_.end(), cells.begin(), cells.end());
+  ++rows_;
+  if (rows_ - forgotten_ <= kRemembered) return;
+  cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(columns_.size()));
+  ++forgotten_;
+}
+
 int Trace::find(std::string_view column) const {
   const auto place = index_.find(std::string(column));
   return place == index_.end() ? -1 : place->second;
 }
 
 double Trace::at(std::int64_t k, int column) const {
-  const std::int64_t row = k - first_tick_;
-  if (row < 0 || row >= rows_ || column < 0 || column >= static_cast<int>(columns_.size())) return kMissing;
+  const std::int64_t row = k - first_tick_ - forgotten_;
+  if (row < 0 || row >= rows_ - forgotten_ || column < 0 || column >= static_cast<int>(columns_.size()))
+    return kMissing;
   return cells_[static_cast<std::size_t>(row) * columns_.size() + static_cast<std::size_t>(column)];
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -19,18 +20,27 @@ class Trace {
   /// blanks around numbers are read.
   static Trace from_csv(std::string_view text, std::size_t max_cells = 200'000'000);
 
+  /// A trace of these columns (names as above, no two the same) that has no row yet and grows from tick 0. It remembers
+  /// its newest rows only: what a run needs that follows it tick by tick.
+  static Trace growing(std::vector<std::string> columns);
+  bool grows() const { return grows_; }
+  /// The row of tick rows(), one cell a column, NaN where missing. Of a growing trace only; throws std::logic_error.
+  void append(std::span<const double> cells);
+
   std::int64_t first_tick() const { return first_tick_; }
   std::int64_t rows() const { return rows_; }
   double dt() const { return dt_; }                                     ///< of the first two rows, s; 0 with one row
   const std::vector<std::string>& columns() const { return columns_; }  ///< without k and t
   int find(std::string_view column) const;                              ///< -1: not there
-  /// NaN where missing or outside the trace.
+  /// NaN where missing, outside the trace or no longer remembered.
   double at(std::int64_t k, int column) const;
 
  private:
   friend class TraceReader;
   std::int64_t first_tick_ = 0;
   std::int64_t rows_ = 0;
+  std::int64_t forgotten_ = 0;  ///< rows
+  bool grows_ = false;
   double dt_ = 0;
   std::vector<std::string> columns_;
   std::unordered_map<std::string, int> index_;
