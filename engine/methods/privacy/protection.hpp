@@ -44,7 +44,7 @@ class Eavesdropper {
 struct Decoded {
   Eigen::MatrixXd estimates;  ///< states x sensors
   Eigen::VectorXd h;          ///< n L; 1: a component to be fused, 0: the centre puts its own prediction there
-  bool fused = false;         ///< the mechanism has fused by itself: mean and P are set, the rest is not
+  bool fused = false;         ///< it has fused by itself, as at every tick or none: mean and P are set, the rest is not
   Eigen::VectorXd mean;       ///< states
   Eigen::MatrixXd P;          ///< states x states; empty: not known
 };
