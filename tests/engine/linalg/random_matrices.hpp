@@ -19,21 +19,12 @@ class RandomMatrices {
   int below(int count) { return static_cast<int>(uniform() * count); }
   double log_uniform(double least, double most) { return least * std::pow(most / least, uniform()); }
 
-  Eigen::MatrixXd gaussian(Eigen::Index rows, Eigen::Index columns) {
-    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(); });
-  }
-  Eigen::VectorXd vector(Eigen::Index size) { return gaussian(size, 1); }
-  Eigen::MatrixXd orthogonal(Eigen::Index n) {
-    return Eigen::HouseholderQR<Eigen::MatrixXd>(gaussian(n, n)).householderQ();
-  }
+  Eigen::MatrixXd gaussian(Eigen::Index rows, Eigen::Index columns);
+  Eigen::VectorXd vector(Eigen::Index size);
+  Eigen::MatrixXd orthogonal(Eigen::Index n);
   /// Of the given rank, its other eigenvalues between 0.1 and 10.
-  Eigen::MatrixXd semidefinite(Eigen::Index n, Eigen::Index rank) {
-    const Eigen::MatrixXd V = orthogonal(n).leftCols(rank);
-    const Eigen::VectorXd sizes = Eigen::VectorXd::NullaryExpr(rank, [&] { return log_uniform(0.1, 10); });
-    const Eigen::MatrixXd M = V * sizes.asDiagonal() * V.transpose();
-    return 0.5 * (M + M.transpose());
-  }
-  Eigen::MatrixXd definite(Eigen::Index n) { return semidefinite(n, n); }
+  Eigen::MatrixXd semidefinite(Eigen::Index n, Eigen::Index rank);
+  Eigen::MatrixXd definite(Eigen::Index n);
 
  private:
   Draws draws_;
@@ -41,8 +32,6 @@ class RandomMatrices {
   std::uint32_t next_ = 0;
 };
 
-inline double least_eigenvalue(const Eigen::MatrixXd& M) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues()[0];
-}
+double least_eigenvalue(const Eigen::MatrixXd& M);
 
 }  // namespace vigil

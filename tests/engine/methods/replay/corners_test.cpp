@@ -51,16 +51,16 @@ TEST(Corners, AreWhereTheConditionsSayAndNoSearchFindsALowerCost) {
 
     RandomMatrices random(10000 + number);
     const auto n = problem.C.cols();
-    const reference::Long K = MatrixXd(gain->K).cast<long double>();
+    const reference::Long K = reference::extended(gain->K);
     const long double chosen = reference::least_cost(problem, K);
     long double found = reference::searched_cost(problem, K, random);
     for (const MatrixXd& start : {MatrixXd(MatrixXd::Zero(n, n)), MatrixXd(0.9 * problem.C.inverse())}) {
-      found = std::min(found, reference::searched_cost(problem, start.cast<long double>(), random));
+      found = std::min(found, reference::searched_cost(problem, reference::extended(start), random));
     }
     EXPECT_LE(chosen, found * (1 + 1e-9L));
     for (const bool at_inverse : {true, false}) {
       const MatrixXd end = at_inverse ? MatrixXd(problem.C.inverse()) : MatrixXd(MatrixXd::Zero(n, n));
-      const long double of_end = reference::least_cost(problem, end.cast<long double>());
+      const long double of_end = reference::least_cost(problem, reference::extended(end));
       const double condition = at_inverse ? inverse : zero;
       EXPECT_TRUE(condition > 1 || of_end <= found * (1 + 1e-9L));
       EXPECT_TRUE(condition < 1.01 || of_end > found);
@@ -82,8 +82,8 @@ TEST(Corners, TheSearchFindsTheWayFromAGainThatIsOff) {
     const auto n = problem.C.cols();
     const double best = problem.mu * gain->Q.trace() + (1 - problem.mu) * gain->M.trace();
     const MatrixXd start = MatrixXd(gain->K) + 0.01 * (1 + gain->K.norm()) * random.gaussian(n, n);
-    const auto of_start = static_cast<double>(reference::least_cost(problem, start.cast<long double>()));
-    const auto found = static_cast<double>(reference::searched_cost(problem, start.cast<long double>(), random));
+    const auto of_start = static_cast<double>(reference::least_cost(problem, reference::extended(start)));
+    const auto found = static_cast<double>(reference::searched_cost(problem, reference::extended(start), random));
     EXPECT_GE(of_start, best);
     EXPECT_GE(found, best * (1 - 1e-9));
     EXPECT_LE(found - best, 0.2 * (of_start - best));
@@ -99,12 +99,12 @@ TEST(Corners, ASensorThatIsNotSquareHasNoInverseToTake) {
     problem.Mp *= number % 4 < 2 ? 1000 : 1;
     const auto gain = MixedUpdate(problem.C, problem.R, problem.Mv, problem.mu).update(problem.Qp, problem.Mp);
     ASSERT_TRUE(gain);
-    const reference::Long K = MatrixXd(gain->K).cast<long double>();
+    const reference::Long K = reference::extended(gain->K);
     const long double chosen = reference::least_cost(problem, K);
     EXPECT_LE(chosen, reference::searched_cost(problem, K, random, 3000) * (1 + 1e-7L));
     if (gain->corner != Corner::infinite) continue;
     const reference::Long expected = reference::gain(problem, 1e-9L);
-    EXPECT_LE((gain->K - expected.cast<double>()).norm(), 1e-8 * gain->K.norm());
+    EXPECT_LE(reference::distance(gain->K, expected), 1e-8 * gain->K.norm());
   }
 }
 

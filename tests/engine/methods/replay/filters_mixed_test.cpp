@@ -39,7 +39,7 @@ void expect_state(const rig::Signals& signals, const Method& method, const plain
   }
 }
 
-plain::Vector real(const Eigen::VectorXd& v) { return v.cast<plain::Real>(); }
+using plain::real;
 
 plain::Mixed started(const plain::Model& model, const rig::Record& record, int end) {
   std::vector<plain::Vector> y, u;
@@ -75,7 +75,7 @@ TEST(MixedFilter, PassesARecordAsTheDenseFormulas) {
         ASSERT_GT(plain.zeta, 1e-3L);
         ASSERT_LT(plain.zeta, 1e3L) << "not a corner";
         expect_near(signals("zeta"), plain.zeta, 1e-6, "zeta");
-        const plain::Vector r = real(record.y[i]) - model.C * plain.x;
+        const plain::Vector r = plain::residual(model, real(record.y[i]), plain.x);
         for (int c = 0; c < 2; ++c) expect_near(signals("residual.y" + std::to_string(c + 1)), r[c], 1e-8, "residual");
       }
       expect_state(signals, *method, plain, k);
@@ -106,9 +106,7 @@ TEST(MixedFilter, HoldsWhereAReadingIsMissing) {
     if (k == 3) {
       plain = started(model, record, 3);
     } else if (hole(k)) {
-      plain.x = model.A * plain.x + model.B * real(record.u[i]);
-      plain.sets.Q = model.A * plain.sets.Q * model.A.transpose() + model.P;
-      plain.sets.M = plain::least_trace({model.A * plain.sets.M * model.A.transpose(), model.Mw});
+      plain.coast(model, real(record.u[i]));
       EXPECT_FALSE(method->detection(0).alarm || method->detection(0).judged) << k;
       EXPECT_TRUE(std::isnan(method->detection(0).statistic) && std::isnan(signals("residual.y1"))) << k;
     } else {
