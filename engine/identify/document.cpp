@@ -22,8 +22,19 @@ Json numbers(const Eigen::VectorXd& vector) {
   return list;
 }
 
-/// One filter over all tanks, one at each tank.
-Json lanes() { return {{"all", {{"method", "centralized_ekf"}}}, {"each", {{"method", "local_ekf"}}}}; }
+/// One filter over all outputs and one at each, under every detector.
+Json lanes(int window) {
+  const Json windowed{{"window", window}};
+  Json all = Json::object();
+  for (const auto& [prefix, method] : {std::pair{"all", "centralized_ekf"}, std::pair{"each", "local_ekf"}}) {
+    for (const std::string_view type : {"chi_square", "cusum", "fixed", "dynamic"}) {
+      const bool energy = type == "fixed" || type == "dynamic";
+      all[fmt::format("{}_{}", prefix, type)] = {
+          {"method", method}, {"detector", {{"type", type}, {"params", energy ? windowed : Json::object()}}}};
+    }
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -46,7 +57,7 @@ Json scenario_of(const Identified& identified, const Task& task) {
           {"nodes", nodes},
           {"noise", {{"Q", rows_of(space.Q)}, {"P0", rows_of(space.P0)}}},
           {"initial", {{"estimates", estimates}}},
-          {"lanes", lanes()},
+          {"lanes", lanes(task.window)},
           {"view", {{"detector", true}, {"mapping", to_json(identified.mapping)}}}};
 }
 

@@ -19,6 +19,7 @@ struct Task {
   std::string id = "identified", source;
   double dt = 1;                 ///< s between rows
   double reading_share = 0.001;  ///< see state_space()
+  int window = 24;               ///< innovations in the statistics of the detectors `fixed` and `dynamic`
   Settings settings;
 };
 
@@ -37,8 +38,8 @@ struct Identified {
 Identified identify(std::string_view text, const Task& task);
 
 /// The scenario document: plant `linear` whose last input is the constant one, a sensor a tank of the same type, noise,
-/// initial estimates at the recorded mean, lanes with and without a detector, the mapping in `view`. `vigil run` takes
-/// it with a trace of the same mapping.
+/// initial estimates at the recorded mean, one filter over all outputs and one at each under every detector, the
+/// mapping in `view`. `vigil run` takes it with a trace of the same mapping.
 Json scenario_of(const Identified& identified, const Task& task);
 
 }  // namespace vigil::identify

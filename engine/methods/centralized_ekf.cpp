@@ -1,5 +1,6 @@
 /// One extended Kalman filter over every sensor, which uses no channel: the attack-free lower bound. Specification of
 /// seed 000, section 9.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/linalg/chi_square.hpp"
@@ -48,6 +49,8 @@ class CentralizedEkf final : public Method {
       if (std::string* text = report.stop(0, "diverged")) *text = "the filter over all sensors is no longer finite";
       return;
     }
+    const int size = std::min(whitened_size_, kMaxSmall);
+    if (identity_.rows() != size) identity_ = BoundedMatrix::Identity(size, size);
   }
 
   Belief belief(int /*output*/) const override {
@@ -55,6 +58,7 @@ class CentralizedEkf final : public Method {
     if (whitened_size_ > 0) {
       belief.innovation = whitened_.data();
       belief.innovation_size = whitened_size_;
+      if (whitened_size_ == identity_.rows()) belief.innovation_covariance = identity_.data();
     }
     return belief;
   }
@@ -94,6 +98,7 @@ class CentralizedEkf final : public Method {
   double limits_[kMaxSmall + 1] = {};
   Eigen::VectorXd whitened_;  ///< innovations of this tick, each whitened by its own covariance: together N(0, I)
   int whitened_size_ = 0;
+  BoundedMatrix identity_;  ///< their covariance, where they are few enough to be judged as one innovation
   int used_ = 0;
   int used_slot_ = 0;
 };

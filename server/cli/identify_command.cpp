@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "engine/core/describe.hpp"
+#include "engine/identify/calibrate.hpp"
 #include "engine/identify/identify.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "server/cli/commands.hpp"
@@ -16,6 +17,7 @@ namespace {
 struct IdentifyCommand {
   std::string file, map, out, trace_out;
   std::optional<int> lag;
+  double false_alarms = 0.01;
   identify::Task task;
 };
 
@@ -67,9 +69,11 @@ int carry_out(IdentifyCommand& command) {
   if (!id.empty()) task.id = id.substr(0, 64);
   const std::string text = read_text(command.file);
   const identify::Identified found = identify::identify(text, task);
-  const Scenario scenario = Scenario::from_json(identify::scenario_of(found, task));
+  const std::string trace = identify::table_to_trace(text, found.mapping);
+  const Scenario scenario = identify::calibrated(Scenario::from_json(identify::scenario_of(found, task)),
+                                                 std::make_shared<Trace>(Trace::from_csv(trace)), command.false_alarms);
   write_text(command.out, scenario.document().dump(1) + "\n");
-  if (!command.trace_out.empty()) write_text(command.trace_out, identify::table_to_trace(text, found.mapping));
+  if (!command.trace_out.empty()) write_text(command.trace_out, trace);
   std::cout << identify_report(found, task);
   return kDone;
 }
@@ -93,6 +97,10 @@ void add_identify(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, 1));
   sub->add_option("--reading-noise", task.reading_share, "share of the residuals laid to the readings")
       ->check(CLI::Range(1e-6, 0.45));
+  sub->add_option("--window", task.window, "innovations in the statistic of the detectors fixed and dynamic")
+      ->check(CLI::Range(1, 1000));
+  sub->add_option("--false-alarms", command->false_alarms, "share of clean rows that learned thresholds let through")
+      ->check(CLI::Range(1e-6, 0.5));
   sub->add_option("--out", command->out, "the scenario")->required();
   sub->add_option("--trace-out", command->trace_out, "the same rows as a trace");
   sub->callback([command, &action] { action = [command] { return carry_out(*command); }; });

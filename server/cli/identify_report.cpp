@@ -11,15 +11,20 @@ namespace vigil {
 namespace {
 
 std::string tried_table(const identify::Choice& choice) {
-  std::vector<std::vector<std::string>> rows{{"order", "input lag", "one step", "free run", "radius", ""}};
+  std::vector<std::vector<std::string>> rows{{"order", "input lag", "one step", "free run", "radius", "chosen"}};
+  std::string refusals;
   for (std::size_t i = 0; i < choice.tried.size(); ++i) {
     const identify::Candidate& candidate = choice.tried[i];
     const bool chosen = static_cast<int>(i) == choice.chosen;
-    rows.push_back({std::to_string(candidate.order), std::to_string(candidate.lag), six_digits(candidate.one_step),
-                    six_digits(candidate.free_run), six_digits(candidate.radius),
-                    chosen ? "chosen" : (candidate.refused.empty() ? "" : "refused: " + candidate.refused)});
+    const bool tried = candidate.one_step > 0;
+    rows.push_back({std::to_string(candidate.order), std::to_string(candidate.lag),
+                    tried ? six_digits(candidate.one_step) : "-", tried ? six_digits(candidate.free_run) : "-",
+                    tried ? six_digits(candidate.radius) : "-",
+                    chosen ? "yes" : (candidate.refused.empty() ? "" : "refused")});
+    if (!candidate.refused.empty())
+      refusals += fmt::format("Order {}, input lag {}: {}.\n", candidate.order, candidate.lag, candidate.refused);
   }
-  return aligned(rows);
+  return aligned(rows) + refusals;
 }
 
 std::string output_table(const identify::Identified& found) {
