@@ -30,12 +30,22 @@ double beta_fraction(double a, double b, double x) {
   return h;
 }
 
-/// Regularised incomplete beta function I_x(a, b); `rest` is 1 - x, given apart so that no digit of it is lost.
+/// ln B(a, 1/2). Where a is large the gamma functions alone are so large that their difference has no digits left:
+/// there ln(gamma(a + 1/2) / gamma(a)) is its asymptotic series.
+double log_beta_half(double a) {
+  const double half = std::lgamma(0.5);
+  if (a < 50) return half + std::lgamma(a) - std::lgamma(a + 0.5);
+  const double one = 1 / a, cube = one * one * one;
+  return half - (0.5 * std::log(a) - one / 8 + cube / 192 - cube * one * one / 640);
+}
+
+/// Regularised incomplete beta function I_x(a, b), one of a and b 1/2; `rest` is 1 - x, given apart so that no digit of it is lost.
 double regular_beta(double a, double b, double x, double rest) {
   if (x <= 0) return 0;
   if (rest <= 0) return 1;
-  const double scale =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log(rest));
+  const double log_x = rest < 0.5 ? std::log1p(-rest) : std::log(x);
+  const double log_rest = x < 0.5 ? std::log1p(-x) : std::log(rest);
+  const double scale = std::exp(a * log_x + b * log_rest - log_beta_half(a == 0.5 ? b : a));
   if (x < (a + 1) / (a + b + 2)) return scale * beta_fraction(a, b, x) / a;
   return 1 - scale * beta_fraction(b, a, rest) / b;
 }
