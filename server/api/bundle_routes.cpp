@@ -5,6 +5,7 @@
 #include "server/api/read_body.hpp"
 #include "server/api/run_json.hpp"
 #include "server/api/sample_csv.hpp"
+#include "server/ingest/recorded_rows.hpp"
 #include "server/runs/bundle.hpp"
 
 namespace vigil {
@@ -26,7 +27,8 @@ void bundle(Services& services, const HttpRequest& request, HttpResponse& respon
   services.log.flush();
   const RunRow row = run_row(request, services);
   const std::vector<Signal> signals = services.reader.signals(row.id);
-  const auto trace = row.trace ? services.reader.trace_csv(*row.trace) : std::nullopt;
+  auto trace = row.trace ? services.reader.trace_csv(*row.trace) : std::nullopt;
+  if (was_pushed(row)) trace = recorded_rows(services.reader, row);
   if (row.trace && !trace) throw HttpError(409, "The trace this run was made from was deleted: it cannot be repeated.");
   std::string head = bundle_head(row, signals, trace).dump();
   response.content_type = "application/json";
@@ -74,7 +76,7 @@ void add_bundle_routes(Routes& routes, Services& services) {
           .parameter(doc::query("frames", {{"type", "boolean"}}, "false: without the samples"))
           .answer(200, "Document, seed, version, commands, trace, metrics, design, frames.", any)
           .problem(404, "There is no such run.")
-          .problem(409, "Its trace was deleted.")
+          .problem(409, "Its trace was deleted, or the log has not kept all rows that were pushed into it.")
           .what()));
   Route back = make_route(
       "POST", "/api/v1/runs/import", [&services](const auto& q, auto& r) { import_bundle(services, q, r); },

@@ -6,6 +6,7 @@
 #include "server/api/guard.hpp"
 #include "server/api/read_body.hpp"
 #include "server/api/run_json.hpp"
+#include "server/ingest/recorded_rows.hpp"
 #include "server/runs/fork.hpp"
 
 namespace vigil {
@@ -120,18 +121,41 @@ std::int64_t newest(const RunRow& row, const Services& services) {
   return std::max(row.k, live ? live->tick() : -1);
 }
 
+struct Recorded {
+  std::optional<std::int64_t> id;
+  std::shared_ptr<const Trace> trace;
+};
+
+/// What a fork runs on: its parent's trace, or the rows that were pushed into the parent. None: it simulates.
+Recorded recorded_input(const RunRow& parent, Services& services) {
+  Recorded input{parent.trace, nullptr};
+  if (was_pushed(parent)) {
+    const std::string csv = recorded_rows(services.reader, parent);
+    const Trace trace = Trace::from_csv(csv);
+    input.id =
+        services.log.put_trace("pushed into run " + std::to_string(parent.id), csv, trace.rows(), trace.columns());
+  }
+  if (!input.id) return input;
+  input.trace = services.runs.trace(*input.id);
+  if (!input.trace) throw HttpError(409, "The trace this run was made from was deleted: it cannot be repeated.");
+  return input;
+}
+
 void fork(Services& services, const HttpRequest& request, HttpResponse& response) {
   const Json body = request.json();
   check_members(body, {"k", "patch", "pace", "tags", "note"});
-  const RunRow parent = run_row(request, services);
+  RunRow parent = run_row(request, services);
+  if (was_pushed(parent)) {
+    services.log.flush();
+    parent = run_row(request, services);
+  }
   if (!body.contains("k")) throw InputError("/k", "k is missing; expected the tick to fork at", "an integer");
   const std::int64_t last = newest(parent, services);
   if (last < 0) throw HttpError(409, "The run has made no tick yet: there is nothing to fork from.");
   const std::int64_t k = read_integer(body.at("k"), "k", 0, last);
-  const auto trace = parent.trace ? services.runs.trace(*parent.trace) : nullptr;
-  if (parent.trace && !trace)
-    throw HttpError(409, "The trace this run was made from was deleted: it cannot be repeated.");
-  RunOrder order = fork_order(parent, k, body.contains("patch") ? body.at("patch") : Json::object(), trace);
+  const Recorded input = recorded_input(parent, services);
+  RunOrder order = fork_order(parent, k, body.contains("patch") ? body.at("patch") : Json::object(), input.trace);
+  order.trace_id = input.id;
   order.pace = Pace::from_json(body.contains("pace") ? body.at("pace") : parent.pace, "/pace");
   if (body.contains("tags")) order.tags = read_tags(body.at("tags"));
   if (body.contains("note")) order.note = read_note(body.at("note"));

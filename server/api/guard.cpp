@@ -24,6 +24,7 @@ namespace {
 
 [[noreturn]] void rethrow(const RunRefusal& refusal) {
   if (refusal.kind() == RunRefusal::Kind::state) throw HttpError(409, refusal.what());
+  if (refusal.kind() == RunRefusal::Kind::behind) throw HttpError(429, refusal.what()).with_header("Retry-After", "1");
   throw HttpError(503, refusal.what()).with_header("Retry-After", "2");
 }
 

@@ -1,5 +1,6 @@
 // The body of POST /runs.
 #include <algorithm>
+#include <random>
 
 #include "engine/core/describe.hpp"
 #include "server/api/read_body.hpp"
@@ -28,13 +29,13 @@ Scenario read_base(const Json& value, const Services& services) {
 
 void read_input(const Json& input, Services& services, RunOrder& order) {
   if (input == "simulate") return;
-  if (input == "ingest") {
-    throw InputError("/input", "\"ingest\" (live data of your own) is not part of this version",
-                     "\"simulate\" or {\"trace\":id}");
+  if (is_ingest(input)) {
+    order.feed = std::make_shared<IngestFeed>(order.scenario, read_ingest(input));
+    return;
   }
   if (!input.is_object() || input.size() != 1 || !input.contains("trace")) {
-    throw InputError("/input", "input is " + shown(input) + "; expected \"simulate\" or {\"trace\":id}",
-                     "\"simulate\" or {\"trace\":id}");
+    throw InputError("/input", "input is " + shown(input) + "; expected \"simulate\", {\"trace\":id} or \"ingest\"",
+                     "\"simulate\", {\"trace\":id}, \"ingest\"");
   }
   order.trace_id = read_id(input.at("trace"), "/input/trace");
   order.trace = services.runs.trace(*order.trace_id);
@@ -42,6 +43,13 @@ void read_input(const Json& input, Services& services, RunOrder& order) {
     throw InputError("/input/trace", "there is no trace " + std::to_string(*order.trace_id),
                      "an id of GET /api/v1/traces");
   }
+}
+
+/// What is pushed comes from the world: whoever might attack it must not guess what noise and marks are drawn from.
+std::uint64_t unguessed_seed() {
+  std::random_device source;
+  const std::uint64_t high = source(), low = source();
+  return ((high << 32) | low) & kLargestSeed;
 }
 
 }  // namespace
@@ -63,7 +71,7 @@ Scenario read_scenario(const Json& body, const Services& services) {
 
 RunOrder read_order(const HttpRequest& request, Services& services) {
   const Json body = request.json();
-  check_members(body, {"scenario", "patch", "seed", "pace", "input", "tags", "note"});
+  check_members(body, {"scenario", "patch", "seed", "pace", "input", "webhook", "tags", "note"});
   RunOrder order;
   order.scenario = read_scenario(body, services);
   if (body.contains("seed")) {
@@ -72,6 +80,9 @@ RunOrder read_order(const HttpRequest& request, Services& services) {
   }
   if (body.contains("pace")) order.pace = Pace::from_json(body.at("pace"), "/pace");
   if (body.contains("input")) read_input(body.at("input"), services, order);
+  if (order.feed && !body.contains("seed")) order.seed = unguessed_seed();
+  if (body.contains("webhook"))
+    order.webhook = read_webhook(body.at("webhook"), services.runs.webhooks().options().allow);
   if (body.contains("tags")) order.tags = read_tags(body.at("tags"));
   if (body.contains("note")) order.note = read_note(body.at("note"));
   read_idempotency(request, order);

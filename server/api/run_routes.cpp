@@ -41,7 +41,11 @@ Json create_doc() {
                       {"description", "an id or a whole document"}};
   const Json pace{{"oneOf", {{{"const", "max"}}, {{"type", "number"}, {"minimum", 0.001}, {"maximum", 100000}}}}};
   const Json trace = doc::object_schema({{"trace", doc::text_schema("id of a trace")}}, {"trace"});
-  const Json input{{"oneOf", {{{"const", "simulate"}}, trace}}};
+  const Json ingest = doc::object_schema(
+      {{"ingest", doc::object_schema({{"deadline", {{"type", "number"}, {"minimum", 0.001}, {"maximum", 3600}}},
+                                      {"columns", {{"type", "array"}, {"items", {{"type", "string"}}}}}})}},
+      {"ingest"});
+  const Json input{{"oneOf", {{{"const", "simulate"}}, trace, {{"const", "ingest"}}, ingest}}};
   const Json tags{
       {"type", "array"}, {"maxItems", 32}, {"items", {{"type", "string"}, {"minLength", 1}, {"maxLength", 64}}}};
   return doc::Operation()
@@ -51,6 +55,7 @@ Json create_doc() {
                                 {"seed", doc::integer_schema(0, static_cast<std::int64_t>(kLargestSeed))},
                                 {"pace", pace},
                                 {"input", input},
+                                {"webhook", doc::text_schema("http://… that alarms are sent to")},
                                 {"tags", tags},
                                 {"note", {{"type", "string"}, {"maxLength", 4000}}}},
                                {"scenario"}))

@@ -35,6 +35,7 @@ void add_data_routes(Routes& routes, Services& services);
 void add_compare_routes(Routes& routes, Services& services);
 void add_bundle_routes(Routes& routes, Services& services);
 void add_trace_routes(Routes& routes, Services& services);
+void add_ingest_routes(Routes& routes, Services& services);
 void add_stream_routes(Routes& routes, Services& services);
 void add_system_routes(Routes& routes, Services& services);
 void add_metrics_route(Routes& routes, Services& services);

@@ -67,6 +67,7 @@ Routes make_routes(Services& services) {
   add_compare_routes(routes, services);
   add_bundle_routes(routes, services);
   add_trace_routes(routes, services);
+  add_ingest_routes(routes, services);
   add_stream_routes(routes, services);
   add_system_routes(routes, services);
   add_metrics_route(routes, services);

@@ -114,6 +114,10 @@ void add_serve(CLI::App& app, Action& action) {
   sub->add_option("--allow-host", front.allow_hosts, "a further name this server is called by")
       ->take_all()
       ->allow_extra_args(false);
+  sub->add_option("--allow-webhook", command->server.runs.webhooks.allow,
+                  "a host that alarms of runs may be sent to; none without")
+      ->take_all()
+      ->allow_extra_args(false);
   sub->add_flag("--no-demo", command->no_demo, "start no demo run");
   sub->add_option("--keep-days", command->keep_days, "remove finished runs older than this");
   sub->add_option("--keep-gib", command->keep_gib,

@@ -13,14 +13,16 @@ RunRefusal is_over() { return {RunRefusal::Kind::state, "The run is over: it can
 
 }  // namespace
 
-LiveRun::LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, std::function<void(RunId)> ended)
+LiveRun::LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, Webhooks& webhooks,
+                 std::function<void(RunId)> ended)
     : id_(id),
       order_(std::move(order)),
       log_(log),
       hub_(hub),
+      webhooks_(webhooks),
       ended_call_(std::move(ended)),
       run_(std::move(run)),
-      sink_(id, log, hub),
+      sink_(id, log, hub, webhooks),
       pace_(order_.pace),
       over_(ended_.get_future().share()) {
   const Json& document = order_.scenario.document();
@@ -29,6 +31,7 @@ LiveRun::LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, st
   log_.set_signals(id_, run_.catalogue(), log_selection(document, run_.catalogue()), log_policy(document, pace_),
                    run_.dt());
   hub_.open(id_, run_.catalogue(), hub_topics(run_.catalogue(), document), run_.dt());
+  if (order_.webhook) webhooks_.open(id_, *order_.webhook);
   status_ = snapshot(true);
 }
 
@@ -140,6 +143,14 @@ void LiveRun::stop(const std::string& state) {
 
 bool LiveRun::wait_ended(std::chrono::milliseconds patience) const {
   return over_.wait_for(patience) == std::future_status::ready;
+}
+
+void LiveRun::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    fed_ = true;
+  }
+  wake_.notify_all();
 }
 
 void LiveRun::join() {

@@ -43,7 +43,8 @@ struct RunStatus {
 class LiveRun {
  public:
   /// `ended` is called once, at the end of the run's thread.
-  LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, std::function<void(RunId)> ended);
+  LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, Webhooks& webhooks,
+          std::function<void(RunId)> ended);
   ~LiveRun();  ///< stops
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
@@ -71,6 +72,8 @@ class LiveRun {
   /// True when the thread has done its last work (or never will); waits for at most that long.
   bool wait_ended(std::chrono::milliseconds patience) const;
   void join();
+  /// Something was pushed into order().feed.
+  void wake();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -84,6 +87,7 @@ class LiveRun {
   bool over() const;
   bool rest();
   bool unwatched();
+  bool starving();
   void sleep_until(Clock::time_point time);
   void tick_once();
   void enter(const std::string& state);
@@ -99,6 +103,7 @@ class LiveRun {
   const RunOrder order_;
   LogWriter& log_;
   Hub& hub_;
+  Webhooks& webhooks_;
   const std::function<void(RunId)> ended_call_;
 
   // Touched by the run's thread alone once it was started; before that under mutex_.
@@ -113,6 +118,7 @@ class LiveRun {
   std::optional<WallTime> started_at_;
   Clock::time_point due_{}, watched_{}, published_{}, announced_{}, rate_since_{};
   std::int64_t rate_tick_ = -1;
+  std::int64_t shown_tick_ = -1;  ///< of the status that was published last
   std::optional<double> rate_;
   Json design_, world_;
 
@@ -122,6 +128,7 @@ class LiveRun {
   std::shared_ptr<const RunStatus> status_;
   std::string stop_state_;
   bool closed_ = false;  ///< takes no more requests
+  bool fed_ = false;     ///< something was pushed since the thread last slept
   std::atomic<bool> pending_{false};
   std::atomic<bool> stop_{false};
   std::atomic<bool> started_{false};

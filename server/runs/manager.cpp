@@ -15,6 +15,7 @@ RunManager::RunManager(LogWriter& log, const LogReader& reader, Hub& hub, Manage
       reader_(reader),
       hub_(hub),
       options_(std::move(options)),
+      webhooks_(options_.webhooks, [this](RunId run, const Mark& note) { log_.mark(run, note); }),
       keeper_([this] { keep_house(); }),
       designer_(std::make_unique<Designer>(log, reader, options_.design, [this] { look_at_designs(); })) {}
 
@@ -64,8 +65,8 @@ CreatedRun RunManager::create(RunOrder order) {
 }
 
 void RunManager::begin(RunId id, RunOrder order, Run run) {
-  auto live =
-      std::make_shared<LiveRun>(id, std::move(order), std::move(run), log_, hub_, [this](RunId over) { ended(over); });
+  auto live = std::make_shared<LiveRun>(id, std::move(order), std::move(run), log_, hub_, webhooks_,
+                                        [this](RunId over) { ended(over); });
   const std::lock_guard lock(mutex_);
   runs_[id] = live;
   std::string end = stopping_ ? "interrupted" : "";

@@ -17,6 +17,7 @@
 #include "server/runs/live_run.hpp"
 #include "server/runs/order.hpp"
 #include "server/synthesis/design_item.hpp"
+#include "server/webhook/webhooks.hpp"
 
 namespace vigil {
 
@@ -27,6 +28,7 @@ struct ManagerOptions {
   int max_runs = 4;            ///< beside the demo
   std::size_t max_queue = 64;  ///< runs that wait; each holds its state in memory
   DesignerOptions design;
+  WebhookOptions webhooks;
 };
 
 class RunManager {
@@ -49,6 +51,7 @@ class RunManager {
   /// What a run that is designing waits for; empty for all others.
   std::vector<DesignItem> designing(RunId id) const;
   Designer& designer() { return *designer_; }
+  const Webhooks& webhooks() const { return webhooks_; }
   /// Ends the run if it is live and deletes it from the log and the hub. Throws LogError (missing), RunRefusal (busy).
   void remove(RunId id);
   /// The content of a trace in the log, shared while anyone uses it; null where there is none. Throws InputError where
@@ -86,6 +89,8 @@ class RunManager {
   const LogReader& reader_;
   Hub& hub_;
   const ManagerOptions options_;
+
+  Webhooks webhooks_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -24,10 +24,12 @@ Json canonical(Json value) {
 Run make_run(const RunOrder& order) {
   RunOptions options;
   options.seed = order.seed;
-  options.trace = order.trace;
+  options.trace = order.feed ? order.feed->trace() : order.trace;
   options.commands = order.commands;
   options.designs = order.designs;
-  return Run(order.scenario, std::move(options));
+  Run run(order.scenario, std::move(options));
+  if (order.feed) check_pushed(order.feed->columns(), run.catalogue());
+  return run;
 }
 
 RunRecord make_record(const RunOrder& order, const Run& run) {
@@ -49,6 +51,7 @@ RunRecord make_record(const RunOrder& order) {
   record.cpu = cpu_features();
   record.pace = order.pace.to_json();
   record.input = order.trace_id ? Json{{"trace", std::to_string(*order.trace_id)}} : Json("simulate");
+  if (order.feed) record.input = order.feed->to_json();
   record.trace = order.trace_id;
   record.tags = order.tags;
   record.note = order.note;
@@ -59,7 +62,7 @@ RunRecord make_record(const RunOrder& order) {
   if (!order.designs.empty()) record.designs = order.designs;
   record.policy = log_policy(document, order.pace);
   record.keep = log_keep(document);
-  record.reproducible = document.value("reproducible", true);
+  record.reproducible = !order.feed && document.value("reproducible", true);  // what is pushed comes once
   record.idempotency_key = order.idempotency_key;
   record.idempotency_hash = order.idempotency_hash;
   return record;

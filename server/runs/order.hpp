@@ -12,7 +12,9 @@
 #include "engine/run/trace.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "server/hub/hub.hpp"
+#include "server/ingest/ingest_feed.hpp"
 #include "server/runs/pace.hpp"
+#include "server/webhook/webhooks.hpp"
 
 namespace vigil {
 
@@ -25,6 +27,8 @@ struct RunOrder {
   Pace pace;
   std::optional<std::int64_t> trace_id;  ///< in the log
   std::shared_ptr<const Trace> trace;    ///< its content
+  std::shared_ptr<IngestFeed> feed;      ///< rows are pushed into the run; then there is no other trace
+  std::optional<WebhookUrl> webhook;     ///< where its alarms are sent
   std::vector<std::string> tags;
   std::string note;
   std::optional<RunParent> parent;

@@ -3,13 +3,15 @@
 
 #include "db/writer.hpp"
 #include "server/hub/hub.hpp"
+#include "server/webhook/webhooks.hpp"
 
 namespace vigil {
 
 /// Used by the run's own thread alone.
 class RunSink : public Sink {
  public:
-  RunSink(RunId run, LogWriter& log, Hub& hub) : run_(run), log_(log), hub_(hub) {}
+  RunSink(RunId run, LogWriter& log, Hub& hub, Webhooks& webhooks)
+      : run_(run), log_(log), hub_(hub), webhooks_(webhooks) {}
   void frame(const Frame& frame) override;
   void mark(const Mark& mark) override;
   double time() const { return time_; }  ///< s, of the newest frame
@@ -18,6 +20,7 @@ class RunSink : public Sink {
   RunId run_;
   LogWriter& log_;
   Hub& hub_;
+  Webhooks& webhooks_;
   double time_ = 0;
 };
 

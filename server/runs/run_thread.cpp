@@ -102,6 +102,7 @@ bool LiveRun::rest() {
     sleep_until(Clock::now() + kLook);
     return true;
   }
+  if (starving()) return true;
   if (!pace_.paced() || owed_ > 0 || run_.tick() < order_.fast_until) return false;
   const auto now = Clock::now();
   if (now < due_) {
@@ -126,9 +127,24 @@ bool LiveRun::unwatched() {
   return idle;
 }
 
+/// True where the next tick's row was not pushed yet; sleeps until it may be there.
+bool LiveRun::starving() {
+  if (!order_.feed) return false;
+  if (order_.feed->trace()->rows() > run_.tick() + 1 || order_.feed->next()) return false;
+  auto until = order_.feed->due().value_or(Clock::now() + 1h);
+  if (shown_tick_ != run_.tick()) {
+    if (Clock::now() - published_ >= kPublish) publish(true);
+    until = std::min(until, published_ + kPublish);
+  }
+  due_ = Clock::now();
+  sleep_until(until);
+  return true;
+}
+
 void LiveRun::sleep_until(Clock::time_point time) {
   std::unique_lock lock(mutex_);
-  wake_.wait_until(lock, time, [this] { return !requests_.empty() || stop_; });
+  wake_.wait_until(lock, time, [this] { return !requests_.empty() || stop_ || fed_; });
+  fed_ = false;
 }
 
 void LiveRun::tick_once() {
@@ -183,6 +199,7 @@ void LiveRun::publish(bool whole) {
   measure_rate();
   const auto status = snapshot(whole);
   published_ = Clock::now();
+  shown_tick_ = run_.tick();
   {
     const std::lock_guard lock(mutex_);
     status_ = status;
@@ -256,6 +273,7 @@ void LiveRun::finish(std::string state, std::string error) {
     status_ = last;
   }
   hub_.close(id_, state);
+  webhooks_.close(id_);
   published_ = Clock::now();
   announce(*last);
 }

@@ -80,7 +80,7 @@ TEST_F(RunsTest, BadBodiesGetOneClearProblem) {
       {R"({"scenario":"consensus","patch":{"time":{"steps":-3}}})", 422, "/patch/time/steps"},
       {R"({"scenario":"consensus","patch":{"lanes":{"consensus":{"params":{"tau":"x"}}}}})", 422,
        "/patch/lanes/consensus/params/tau"},
-      {R"({"scenario":"consensus","input":"ingest"})", 422, "/input"},
+      {R"({"scenario":"consensus","webhook":"http://localhost/"})", 422, "/webhook"},
       {R"({"scenario":"consensus","input":{"trace":"99"}})", 422, "/input/trace"},
       {R"({"scenario":"consensus","input":{"trace":-1}})", 422, "/input/trace"},
       {R"({"scenario":"consensus","input":{"track":1}})", 422, "/input"},

@@ -1,0 +1,148 @@
+#include "server/ingest/assembler.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/core/describe.hpp"
+#include "engine/core/input_error.hpp"
+
+namespace vigil {
+
+Assembler::Assembler(const PushedColumns& columns, AssemblerLimits limits)
+    : columns_(columns), limits_(limits), awaited_(columns.nodes.size() + 1, 0) {
+  for (const int reporter : columns.reporter) {
+    if (reporter >= 0) awaited_[static_cast<std::size_t>(reporter)] = 1;
+  }
+  awaited_.back() = columns.inputs ? 1 : 0;
+}
+
+/// The part of a tick that comes at once: a node's readings, or what is nobody's in particular.
+std::size_t Assembler::group(int column) const {
+  const int reporter = columns_.reporter[static_cast<std::size_t>(column)];
+  return reporter < 0 ? awaited_.size() - 1 : static_cast<std::size_t>(reporter);
+}
+
+void Assembler::check_ahead(const std::vector<IngestRow>& rows) const {
+  std::int64_t newest = closed_ + static_cast<std::int64_t>(window_.size());
+  const std::int64_t most = newest + limits_.advance;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (limits_.last && rows[i].k > *limits_.last) continue;
+    if (rows[i].k > newest + limits_.ahead)
+      throw InputError(child("", i) + "/k",
+                       "k is " + std::to_string(rows[i].k) + " and the newest tick before it is " +
+                           std::to_string(newest) + "; expected at most " + std::to_string(limits_.ahead) +
+                           " ticks more",
+                       "up to " + std::to_string(newest + limits_.ahead));
+    newest = std::max(newest, rows[i].k);
+    if (newest > most)
+      throw InputError(child("", i) + "/k",
+                       "k is " + std::to_string(newest) + "; one call may go on to tick " + std::to_string(most),
+                       "fewer ticks at once");
+  }
+}
+
+Tally Assembler::take(const std::vector<IngestRow>& rows, double now) {
+  check_ahead(rows);
+  expire(now);
+  Tally tally;
+  for (const IngestRow& row : rows) take(row, now, tally);
+  return tally;
+}
+
+void Assembler::take(const IngestRow& row, double now, Tally& tally) {
+  if (limits_.last && row.k > *limits_.last) {
+    ++tally.beyond;
+  } else if (row.k <= closed_) {
+    ++tally.late;
+  } else if (known(row) || !apply(row, reach(row.k, now))) {
+    ++tally.duplicate;
+  } else {
+    remember(row);
+    ++tally.accepted;
+    close_complete();
+  }
+}
+
+Assembler::OpenTick& Assembler::reach(std::int64_t k, double now) {
+  while (closed_ + static_cast<std::int64_t>(window_.size()) < k) {
+    if (window_.size() == limits_.open) close_front();
+    OpenTick tick;
+    tick.cells.assign(columns_.names.size(), std::numeric_limits<double>::quiet_NaN());
+    tick.reported.assign(awaited_.size(), 0);
+    tick.missing = static_cast<std::size_t>(std::count(awaited_.begin(), awaited_.end(), 1));
+    tick.since = now;
+    window_.push_back(std::move(tick));
+  }
+  return window_[static_cast<std::size_t>(k - closed_ - 1)];
+}
+
+/// False where all of it was there already. What a part said first, it said.
+bool Assembler::apply(const IngestRow& row, OpenTick& tick) {
+  const std::vector<char> before = tick.reported;
+  const auto report = [&](std::size_t part) {
+    if (before[part] != 0) return false;
+    if (tick.reported[part] == 0 && awaited_[part] != 0) --tick.missing;
+    tick.reported[part] = 1;
+    return true;
+  };
+  bool fresh = row.source >= 0 ? report(static_cast<std::size_t>(row.source)) : row.values.empty() && !tick.touched;
+  for (const auto& [column, value] : row.values) {
+    if (!report(group(column))) continue;
+    tick.cells[static_cast<std::size_t>(column)] = value;
+    fresh = true;
+  }
+  tick.touched = true;
+  return fresh;
+}
+
+bool Assembler::known(const IngestRow& row) const {
+  const auto place = row.seq ? seqs_.find(row.source) : seqs_.end();
+  return place != seqs_.end() && place->second.known.contains(*row.seq);
+}
+
+void Assembler::remember(const IngestRow& row) {
+  if (!row.seq) return;
+  Seqs& seqs = seqs_[row.source];
+  seqs.known.insert(*row.seq);
+  seqs.order.push_back(*row.seq);
+  if (seqs.order.size() <= limits_.seqs) return;
+  seqs.known.erase(seqs.order.front());
+  seqs.order.pop_front();
+}
+
+void Assembler::close_front() {
+  ready_.push_back(std::move(window_.front().cells));
+  window_.pop_front();
+  ++closed_;
+}
+
+void Assembler::close_complete() {
+  while (!window_.empty() && window_.front().missing == 0) close_front();
+}
+
+void Assembler::expire(double now) {
+  while (!window_.empty() && window_.front().since + limits_.deadline <= now) close_front();
+  close_complete();
+}
+
+std::optional<double> Assembler::due() const {
+  if (window_.empty()) return std::nullopt;
+  return window_.front().since + limits_.deadline;
+}
+
+std::vector<std::int64_t> Assembler::open() const {
+  std::vector<std::int64_t> ticks;
+  for (std::size_t i = 0; i < window_.size(); ++i) {
+    if (window_[i].touched) ticks.push_back(closed_ + 1 + static_cast<std::int64_t>(i));
+  }
+  return ticks;
+}
+
+std::vector<double> Assembler::pop() {
+  std::vector<double> cells = std::move(ready_.front());
+  ready_.pop_front();
+  return cells;
+}
+
+}  // namespace vigil
