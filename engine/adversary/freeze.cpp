@@ -8,10 +8,12 @@ namespace {
 
 class Freeze final : public Attack {
  public:
-  explicit Freeze(const AttackContext& context) : held_(std::max<std::int64_t>(context.from - 1, 0)) {}
+  explicit Freeze(const AttackContext& context) : held_(std::max<std::int64_t>(context.from - 1, 1)) {}
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Freeze>(*this); }
   bool acts_on(ChannelKind kind) const override { return kind != ChannelKind::actuator; }
+  std::int64_t start() const override { return held_ + 1; }
+  bool active(std::int64_t k) const override { return k > held_; }
 
   void act(std::int64_t /*k*/, std::span<const int> links, LinkEffects& effects) const override {
     for (const int link : links) effects.play(link, {held_, held_, held_});

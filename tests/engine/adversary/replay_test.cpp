@@ -142,11 +142,11 @@ TEST(Replay, RefusesASchedule) {
   EXPECT_NO_THROW(vigil::Run(replay_scenario("replay-ubb", {"zeta1"}, params(longest)), {}));
 }
 
-TEST(Replay, ActsOnSensorsOnly) {
+TEST(Replay, NamesThePlaceThatIsNotThere) {
   Json patch = test::no_attack();
-  patch["adversary"]["it"] = {{"type", "replay"}, {"on", {"link:*"}}};
+  patch["adversary"]["it"] = {{"type", "replay"}, {"on", {"actuator:1"}}};
   EXPECT_EQ(test::refusal(replay_scenario("replay-ubb", {"zeta1"}, patch)).problems().front().pointer,
-            "/adversary/it/on");
+            "/adversary/it/on/0");
   patch["adversary"]["it"]["on"] = {"sensor:1.y3"};
   EXPECT_EQ(test::refusal(replay_scenario("replay-ubb", {"zeta1"}, patch)).problems().front().pointer,
             "/adversary/it/on/0");

@@ -33,6 +33,7 @@ Json params_of(const std::string& attack, const World& world, const std::string&
                    : place.starts_with("actuator") ? world.actuators
                                                    : world.states;
   if (attack == "bias") return {{"vector", std::vector<double>(static_cast<std::size_t>(size), 3.0)}};
+  if (attack == "ramp") return {{"slope", std::vector<double>(static_cast<std::size_t>(size), 0.5)}};
   if (attack == "waveform") return {{"pieces", Json::array({Json::array({1, 0, 0, 2, 0, 5, 0})})}};
   if (attack == "dos_fdi") return {{"xi_dir", std::vector<double>(world.states, 1.5)}};
   if (attack == "replay") return {{"record_from", 3}, {"record_to", 6}, {"start", 9}};

@@ -1,0 +1,155 @@
+// Detectors on innovations whose law is known.
+#include <cmath>
+
+#include "engine/linalg/chi_square.hpp"
+#include "engine/methods/detectors/detector.hpp"
+#include "engine/random/draws.hpp"
+#include "tests/engine/runs/capture.hpp"
+
+namespace vigil {
+namespace {
+
+constexpr int kTicks = 20000;
+
+std::unique_ptr<Detector> detector(const std::string& id, const Json& params) {
+  const auto* entry = Registry<DetectorMake>::find(id);
+  std::vector<Problem> problems;
+  auto made = entry->make(Params(entry->params.complete(params, "", problems)));
+  EXPECT_TRUE(problems.empty());
+  return made;
+}
+
+const Eigen::Matrix2d& covariance() {
+  static const Eigen::Matrix2d S{{2, .6}, {.6, .5}};
+  return S;
+}
+
+/// Share of alarms among judged ticks, where the innovation is white with covariance S times `scale`.
+double alarms(Detector& judge, double scale = 1, int first = 0) {
+  const Eigen::Matrix2d root = covariance().llt().matrixL();
+  const Draws draws(3, "innovation");
+  int judged = 0, alarmed = 0;
+  for (int k = first + 1; k <= first + kTicks; ++k) {
+    const Eigen::Vector2d r = std::sqrt(scale) * root * Eigen::Vector2d(draws.normal(k, 0), draws.normal(k, 1));
+    const Detection said = judge.judge(k, r, covariance());
+    judged += said.judged ? 1 : 0;
+    alarmed += said.alarm ? 1 : 0;
+  }
+  EXPECT_GT(judged, kTicks - 60);
+  return static_cast<double>(alarmed) / judged;
+}
+
+TEST(Detectors, ChiSquareAlarmsAsOftenAsItSays) {
+  for (const double alpha : {.01, .1}) {
+    const auto judge = detector("chi_square", {{"alpha", alpha}});
+    EXPECT_NEAR(alarms(*judge), alpha, 4 * std::sqrt(alpha * (1 - alpha) / kTicks));
+  }
+}
+
+// Windows overlap: one in `window` alarms is independent of the others at worst.
+TEST(Detectors, ChiSquareOverAWindow) {
+  const auto judge = detector("chi_square", {{"alpha", .05}, {"window", 4}});
+  EXPECT_NEAR(alarms(*judge), .05, 4 * std::sqrt(4 * .05 * .95 / kTicks));
+  const Eigen::Vector2d r(1, 0);
+  const Detection said = judge->judge(1, r, covariance());
+  EXPECT_DOUBLE_EQ(said.threshold, chi_square_quantile(.95, 8));
+  EXPECT_EQ(judge->tail(), 3);
+}
+
+TEST(Detectors, CusumFindsWhatIsSmallAndLasts) {
+  const auto quiet = detector("cusum", {{"drift", .5}, {"threshold", 12}});
+  EXPECT_LT(alarms(*quiet), .002);
+  const auto attacked = detector("cusum", {{"drift", .5}, {"threshold", 12}});
+  EXPECT_GT(alarms(*attacked, 2), .04);  // the middle term then has mean 1: an alarm every 24 ticks
+}
+
+TEST(Detectors, CusumIsTheRecursion) {
+  const auto judge = detector("cusum", {{"drift", .25}, {"threshold", 3}, {"restart", true}});
+  const Eigen::MatrixXd S = Eigen::Matrix<double, 1, 1>(4);
+  double sum = 0;
+  for (int k = 1; k <= 40; ++k) {
+    const double r = 3 + std::sin(k);
+    if (sum > 3) sum = 0;
+    sum = std::max(0., sum + (r * r / 4 - 1) / std::sqrt(2.) - .25);
+    const Detection said = judge->judge(k, Eigen::Matrix<double, 1, 1>(r), S);
+    EXPECT_NEAR(said.statistic, sum, 1e-12);
+    EXPECT_EQ(said.alarm, sum > 3);
+  }
+}
+
+TEST(Detectors, WithoutACovarianceOnlyEnergiesJudge) {
+  const Eigen::MatrixXd none;
+  const Eigen::Vector2d r(3, 4);
+  EXPECT_FALSE(detector("chi_square", Json::object())->judge(1, r, none).judged);
+  EXPECT_FALSE(detector("cusum", Json::object())->judge(1, r, none).judged);
+  const auto fixed = detector("fixed", {{"window", 1}, {"level", 20}});
+  const Detection said = fixed->judge(1, r, none);
+  EXPECT_TRUE(said.judged);
+  EXPECT_EQ(said.statistic, 25);
+  EXPECT_EQ(said.threshold, 20);
+  EXPECT_TRUE(said.alarm);
+}
+
+TEST(Detectors, ACovarianceThatIsNoneIsNotJudged) {
+  const Eigen::Matrix2d broken{{1, 2}, {2, 1}};
+  EXPECT_FALSE(detector("chi_square", Json::object())->judge(1, Eigen::Vector2d(1, 1), broken).judged);
+}
+
+Json with_detector(const char* preset, const std::string& lane, const Json& detector) {
+  Json document = Scenario::preset(preset).document();
+  document["lanes"][lane]["detector"] = detector;
+  return document;
+}
+
+// A bias on one sensor: its own node alarms, and no other more than without.
+TEST(Detectors, OnALaneTheySeeWhatItsSensorHears) {
+  Json document = with_detector("consensus", "isolated", {{"type", "chi_square"}});
+  document["time"]["steps"] = 200;
+  document["adversary"] = {
+      {"glare",
+       {{"type", "bias"}, {"on", Json::array({"sensor:4"})}, {"from", 101}, {"params", {{"vector", {30, 12}}}}}}};
+  vigil::Run run(Scenario::from_json(document), {2, nullptr, {}});
+  test::Capture capture;
+  test::run_to_end(run, capture);
+  const auto metrics = run.metrics();
+  EXPECT_GT(test::metric(metrics, "isolated", "tpr", "4"), 0) << "then the filter believes its sensor";
+  EXPECT_LT(test::metric(metrics, "isolated", "fpr", "4"), .1);
+  EXPECT_EQ(test::metric(metrics, "isolated", "event", "4"), 1);
+  EXPECT_LT(test::metric(metrics, "isolated", "delay", "4"), 5);
+  EXPECT_LT(test::metric(metrics, "isolated", "fpr", "5"), .1);
+}
+
+TEST(Detectors, ALaneWithoutAnInnovationSaysSo) {
+  const Json document = with_detector("mrclam", "dead_reckoning", {{"type", "cusum"}});
+  Json consensus = Scenario::preset("sparse").document();
+  consensus["lanes"] = {{"pred", consensus["lanes"]["pred"]}};
+  consensus["lanes"]["pred"]["detector"] = {{"type", "cusum"}};
+  vigil::Run run(Scenario::from_json(consensus), {2, nullptr, {}});
+  test::Capture capture;
+  for (int k = 0; k < 10; ++k) run.step(capture);
+  ASSERT_EQ(run.warnings().size(), 1U);
+  EXPECT_NE(run.warnings().front().find("nothing to judge"), std::string::npos);
+}
+
+void expect_refused(const Json& document, const std::string& pointer) {
+  try {
+    const vigil::Run run(Scenario::from_json(document), {1, nullptr, {}});
+    ADD_FAILURE() << "accepted; expected a problem at " << pointer;
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().front().pointer, pointer) << error.what();
+  }
+}
+
+TEST(Detectors, RefuseWhatCannotBe) {
+  const Json chi = {{"type", "chi_square"}};
+  expect_refused(with_detector("replay-mixed", "repaired", chi), "/lanes/repaired/detector/type");
+  expect_refused(with_detector("consensus", "isolated", {{"type", "chi_squared"}}), "/lanes/isolated/detector/type");
+  expect_refused(with_detector("consensus", "isolated", {{"type", "chi_square"}, {"params", {{"alpha", 1}}}}),
+                 "/lanes/isolated/detector/params/alpha");
+  Json monitor = with_detector("consensus", "isolated", chi);
+  monitor["lanes"]["isolated"]["path"] = "monitor";
+  expect_refused(monitor, "/lanes/isolated/detector/type");
+}
+
+}  // namespace
+}  // namespace vigil
