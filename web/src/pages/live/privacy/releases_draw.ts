@@ -55,7 +55,7 @@ function drawAxis(context: CanvasRenderingContext2D, width: number, height: numb
   context.textAlign = 'center';
   context.textBaseline = 'alphabetic';
   context.fillStyle = colour('muted');
-  for (const value of ticks(scene.from, scene.to, width / 60)) {
+  for (const value of ticks(scene.from, scene.to, width / 42)) {
     const at = Math.round(x(value)) + 0.5;
     context.strokeStyle = colour(value === 0 ? 'control' : 'grid');
     context.beginPath();

@@ -91,8 +91,8 @@ export function drawPlane(context: CanvasRenderingContext2D, width: number, heig
   context.textAlign = 'center';
   context.textBaseline = 'middle';
   const words = matrix.map((row) => row.map((value) => formatNumber(value, 2)));
-  context.font = "10px 'IBM Plex Mono', monospace";
-  const fits = h >= 12 && words.flat().every((word) => context.measureText(word).width < w - 3);
+  context.font = `${w < 34 ? 9 : 10}px 'IBM Plex Mono', monospace`;
+  const fits = (word: string): boolean => h >= 12 && context.measureText(word).width < w - 2;
   plane.epsilon.forEach((_, i) =>
     plane.delta.forEach((__, j) => {
       const value = matrix[i]![j]!;
@@ -104,7 +104,7 @@ export function drawPlane(context: CanvasRenderingContext2D, width: number, heig
       context.fillRect(x, y, w - 1, h - 1);
       context.globalAlpha = 1;
       context.fillStyle = colour('ink');
-      if (fits) context.fillText(words[i]![j]!, x + w / 2, y + h / 2);
+      if (fits(words[i]![j]!)) context.fillText(words[i]![j]!, x + w / 2, y + h / 2);
     }),
   );
   drawOwn(context, plane, own, w, h);
@@ -120,14 +120,14 @@ export function indexOf(values: readonly number[], value: number): number | null
   return above - 1 + Math.log(value / a) / Math.log(b / a);
 }
 
-/** A ring where the lane itself is. */
+/** A frame where the lane itself is. */
 function drawOwn(context: CanvasRenderingContext2D, plane: Plane, own: { epsilon: number | null; delta: number | null }, w: number, h: number): void {
   const [i, j] = [own.epsilon === null ? null : indexOf(plane.epsilon, own.epsilon), own.delta === null ? null : indexOf(plane.delta, own.delta)];
   if (i === null || j === null) return;
   context.strokeStyle = colour('ink');
   context.lineWidth = 2;
   context.beginPath();
-  context.arc(room.left + (i + 0.5) * w, room.top + (plane.delta.length - 0.5 - j) * h, 7, 0, 2 * Math.PI);
+  context.roundRect(room.left + i * w - 1, room.top + (plane.delta.length - 1 - j) * h - 1, w + 1, h + 1, 3);
   context.stroke();
 }
 

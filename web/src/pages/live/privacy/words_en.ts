@@ -108,7 +108,7 @@ export const en = {
   cdfe: 'user (CDFE)',
   dfe: 'without noise (DFE)',
   surface_of: 'Trace',
-  over_kappa: 'κ',
+  over_kappa: 'over κ',
   over_plane: '{which} over ε, δ',
   own_setting: 'this lane’s ε and δ',
   kappa_axis: 'κ, estimates in a mean',

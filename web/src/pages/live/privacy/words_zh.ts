@@ -111,7 +111,7 @@ export const zh: Translation<typeof en> = {
   cdfe: '合法用户（CDFE）',
   dfe: '无噪声（DFE）',
   surface_of: '迹',
-  over_kappa: 'κ',
+  over_kappa: '随 κ',
   over_plane: '{which} 随 ε、δ',
   own_setting: '该方法的 ε 与 δ',
   kappa_axis: 'κ，均值所含估计个数',
