@@ -15,7 +15,7 @@ namespace vigil {
 namespace {
 
 struct IdentifyCommand {
-  std::string file, map, out, trace_out;
+  std::string file, map, out, trace_of, trace_out;
   std::optional<int> lag;
   double false_alarms = 0.01;
   identify::Task task;
@@ -73,7 +73,10 @@ int carry_out(IdentifyCommand& command) {
   const Scenario scenario = identify::calibrated(Scenario::from_json(identify::scenario_of(found, task)),
                                                  std::make_shared<Trace>(Trace::from_csv(trace)), command.false_alarms);
   write_text(command.out, scenario.document().dump(1) + "\n");
-  if (!command.trace_out.empty()) write_text(command.trace_out, trace);
+  if (!command.trace_out.empty()) {
+    const bool same = command.trace_of.empty();
+    write_text(command.trace_out, same ? trace : identify::table_to_trace(read_text(command.trace_of), found.mapping));
+  }
   std::cout << identify_report(found, task);
   return kDone;
 }
@@ -102,7 +105,9 @@ void add_identify(CLI::App& app, Action& action) {
   sub->add_option("--false-alarms", command->false_alarms, "share of clean rows that learned thresholds let through")
       ->check(CLI::Range(1e-6, 0.5));
   sub->add_option("--out", command->out, "the scenario")->required();
-  sub->add_option("--trace-out", command->trace_out, "the same rows as a trace");
+  CLI::Option* trace = sub->add_option("--trace-out", command->trace_out, "the rows as a trace");
+  sub->add_option("--trace-of", command->trace_of, "another table with the same columns, which the trace is made of")
+      ->needs(trace);
   sub->callback([command, &action] { action = [command] { return carry_out(*command); }; });
 }
 

@@ -95,7 +95,7 @@ TEST(Identify, RefusesWhatCannotBeARun) {
   for (int c = 1; c <= 12; ++c) wide += fmt::format(",u{}", c);
   for (int k = 0; k < 200; ++k) {
     wide += fmt::format("\n{}", k % 7);
-    for (int c = 1; c <= 12; ++c) wide += fmt::format(",{}", (k * c) % 5);
+    for (int c = 1; c <= 12; ++c) wide += fmt::format(",{}", (k * c) % 13);
   }
   Task many;
   many.outputs = {"y"};
