@@ -153,8 +153,8 @@ TEST_F(CompareTest, RefusesWithOneSentence) {
     expect_problem(compare(both + "&abs=" + bad), 400, "/abs");
     expect_problem(compare(both + "&rel=" + bad), 400, "/rel");
   }
-  expect_problem(compare(both + "&shift=-1"), 400, "/shift");
-  expect_problem(compare(both + "&points=100000"), 400, "/points");
+  expect_problem(compare(both + "&shift=-1"), 400, "/query/shift");
+  expect_problem(compare(both + "&points=100000"), 400, "/query/points");
   EXPECT_EQ(compare(both).status, 200);
   EXPECT_EQ(compare(both).json.at("series").size(), 16u) << "what is taken where nothing is named";
   const Json empty = compare(both + "&from=5000").json;

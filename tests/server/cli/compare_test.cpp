@@ -51,7 +51,7 @@ TEST(CompareCommand, PrintsTablesAndIsDoneWhateverTheVerdict) {
   const Outcome same = vigil_command({"compare", "1", "2", "--db", db});
   EXPECT_EQ(same.code, 0) << same.error;
   EXPECT_NE(same.output.find("within"), std::string::npos);
-  EXPECT_EQ(same.output.find("outside  "), std::string::npos) << same.output;
+  EXPECT_EQ(same.output.find("  outside"), std::string::npos) << same.output;
   EXPECT_EQ(same.output.find("parameters that differ"), std::string::npos);
   const Outcome other = vigil_command(
       {"compare", "1", "3", "--db", db, "--signals", "lane.consensus.*.error", "--json", folder.file("c.json")});

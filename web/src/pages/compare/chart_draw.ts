@@ -7,8 +7,13 @@ import { extent, fit, fraction } from '../../chart/scale';
 import type { Series } from '../../data/series';
 import { runLook } from './read';
 
-/** Height of the strip in which each run shows where it is outside, px. */
+/** Height of the strip above the plot in which a run shows where it is outside, px. */
 const kStrip = 4;
+
+/** Room for the strips of so many runs, px. */
+export function strips(runs: number): number {
+  return runs * (kStrip + 1);
+}
 
 export interface Outside {
   /** Place of the run among those compared. */
@@ -30,12 +35,12 @@ export function drawOutside(context: CanvasRenderingContext2D, g: Geometry, any:
   context.globalAlpha = 1;
   each.forEach(({ run, stretches }, i) => {
     context.fillStyle = colour(runLook(run).token);
-    for (const [from, to] of stretches) rectangle(context, g, from, to, g.top + i * (kStrip + 1), kStrip);
+    for (const [from, to] of stretches) rectangle(context, g, from, to, g.top - strips(each.length - i), kStrip);
   });
   context.restore();
 }
 
-function drawLine(context: CanvasRenderingContext2D, g: Geometry, series: Series, y: (value: number) => number): void {
+function drawLine(context: CanvasRenderingContext2D, g: Geometry, series: Series, steps: boolean, y: (value: number) => number): void {
   const [ticks, values] = tableOf(series, false);
   context.beginPath();
   let down = false;
@@ -45,6 +50,7 @@ function drawLine(context: CanvasRenderingContext2D, g: Geometry, series: Series
       down = false;
       return;
     }
+    if (down && steps) context.lineTo(xOf(g, k), y(values[i - 1]!));
     if (down) context.lineTo(xOf(g, k), y(value));
     else context.moveTo(xOf(g, k), y(value));
     down = true;
@@ -52,8 +58,8 @@ function drawLine(context: CanvasRenderingContext2D, g: Geometry, series: Series
   context.stroke();
 }
 
-/** The base first and wide: what agrees with it lies upon it, both in sight. */
-export function drawRuns(context: CanvasRenderingContext2D, g: Geometry, all: readonly Series[]): void {
+/** The base first and wide: what agrees with it lies upon it, both in sight. `steps`: a value holds until the next. */
+export function drawRuns(context: CanvasRenderingContext2D, g: Geometry, all: readonly Series[], steps: boolean): void {
   const scale = fit(extent(all, g.from, g.to, false), false);
   drawTickAxis(context, g);
   drawValueAxis(context, g, scale);
@@ -67,7 +73,7 @@ export function drawRuns(context: CanvasRenderingContext2D, g: Geometry, all: re
     context.strokeStyle = colour(look.token);
     context.lineWidth = look.width;
     context.setLineDash(look.dash);
-    drawLine(context, g, series, y);
+    drawLine(context, g, series, steps, y);
   });
   context.restore();
 }
