@@ -41,6 +41,17 @@ describe('detectors', () => {
     expect(sharedState(model, detectorsOf(model, null))).toBe('sensor.1.state');
   });
 
+  it('over all sensors are judged by the state of the chosen node, or of the first that has one', () => {
+    const fused = ['sensor.1.state', 'sensor.2.state', ...['statistic', 'threshold', 'alarm'].map((kind) => `lane.all.fused.${kind}`)].map(
+      (name, id): Signal => ({ id, name, unit: '', kind: 'scalar', lane: name.startsWith('lane.') ? 'all' : null, node: name.startsWith('lane.') ? 'fused' : name.slice(7, 8) }),
+    );
+    const nodes = ['1', '2'].map((id) => ({ id, position: null }));
+    const over = (adversary: boolean) => makeModel({ ...run, view: {}, world: { nodes, links: [], lanes: [{ id: 'all', method: 'm', adversary }], state: [] } } as unknown as RunDetail, fused);
+    expect(detectorsOf(over(true), null).map(({ node, state }) => [node, state])).toEqual([['fused', 'sensor.1.state']]);
+    expect(detectorsOf(over(true), '2').map(({ state }) => state)).toEqual(['sensor.2.state']);
+    expect(detectorsOf(over(false), null).map(({ state }) => state)).toEqual([null]);
+  });
+
   it('fall back to the lane that the scenario leads with', () => {
     expect(detectorOf(model, 'a', null)?.lane.id).toBe('a');
     expect(detectorOf(model, 'plain', null)?.lane.id).toBe('b');

@@ -21,12 +21,18 @@ export function aboutDetectors(run: Pick<RunDetail, 'family' | 'view'>): boolean
 export function detectorsOf(model: RunModel, node: string | null): Detector[] {
   const names = new Set(model.signals.map((signal) => signal.name));
   const has = (lane: LaneModel, output: string): boolean => ['statistic', 'threshold', 'alarm'].every((kind) => names.has(`lane.${lane.id}.${output}.${kind}`));
+  const told = model.nodes.find(({ id, state }) => state !== null && id === node) ?? model.nodes.find(({ state }) => state !== null);
+  // One filter over all sensors hears every node: it is judged by the chosen one's state, or by the first's.
+  const stateOf = (lane: LaneModel, output: string): string | null => {
+    const own = model.nodes.some(({ id }) => id === output);
+    return attackState(names, lane, own ? output : (told?.id ?? output));
+  };
   return model.lanes.flatMap((lane) => {
     const outputs = lane.outputs.filter((output) => has(lane, output));
     const output = outputs.find((one) => one === node) ?? outputs[0];
     if (output === undefined) return [];
     const prefix = `lane.${lane.id}.${output}.`;
-    return [{ lane, node: output, statistic: `${prefix}statistic`, threshold: `${prefix}threshold`, alarm: `${prefix}alarm`, state: attackState(names, lane, output) }];
+    return [{ lane, node: output, statistic: `${prefix}statistic`, threshold: `${prefix}threshold`, alarm: `${prefix}alarm`, state: stateOf(lane, output) }];
   });
 }
 
