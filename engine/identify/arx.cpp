@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/describe.hpp"
 #include "engine/core/input_error.hpp"
 #include "engine/identify/regression.hpp"
 
@@ -45,7 +46,7 @@ Sample gather(const Records& records, Eigen::Index from, Eigen::Index to, int or
   return sample;
 }
 
-void check(const Sample& sample, int order) {
+void check(const Records& records, const Sample& sample, int order) {
   const Eigen::Index weights = sample.past.cols() + sample.inputs.cols() + 1, rows = sample.outputs.rows();
   if (rows < 3 * weights)
     throw InputError(
@@ -53,8 +54,7 @@ void check(const Sample& sample, int order) {
                              rows, weights, order, 3 * weights));
   for (Eigen::Index c = 0; c < sample.outputs.cols(); ++c) {
     if (sample.outputs.col(c).maxCoeff() > sample.outputs.col(c).minCoeff()) continue;
-    throw InputError(fmt::format("/outputs/{}", c),
-                     fmt::format("output {} never changes; expected outputs that move", c + 1));
+    throw InputError(fmt::format("/outputs/{}", c), records.output(c) + " never changes; expected outputs that move");
   }
 }
 
@@ -102,6 +102,11 @@ void stabilise(const Sample& sample, Arx& model) {
 
 }  // namespace
 
+std::string Records::output(Eigen::Index place) const {
+  const auto p = static_cast<std::size_t>(place);
+  return "output " + (p < names.size() ? in_quotes(names[p]) : std::to_string(p + 1));
+}
+
 Eigen::MatrixXd companion(const std::vector<Eigen::MatrixXd>& A) {
   const Eigen::Index n = A.front().rows(), size = n * static_cast<Eigen::Index>(A.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
@@ -116,7 +121,7 @@ double spectral_radius(const std::vector<Eigen::MatrixXd>& A) {
 
 Arx fit(const Records& records, Eigen::Index from, Eigen::Index to, int order, int lag) {
   const Sample sample = gather(records, from, to, order, lag);
-  check(sample, order);
+  check(records, sample, order);
   Eigen::MatrixXd regressors(sample.past.rows(), sample.past.cols() + sample.inputs.cols());
   regressors << sample.past, sample.inputs;
   const Regression found = regress(regressors, sample.outputs);

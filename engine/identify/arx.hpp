@@ -3,14 +3,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 namespace vigil::identify {
 
 /// What was recorded, one row a tick, NaN where a cell was empty.
 struct Records {
-  Eigen::MatrixXd outputs;  ///< rows x outputs
-  Eigen::MatrixXd inputs;   ///< rows x inputs, which may be none
+  Eigen::MatrixXd outputs;              ///< rows x outputs
+  Eigen::MatrixXd inputs;               ///< rows x inputs, which may be none
+  std::vector<std::string> names = {};  ///< of the outputs, for messages; may be empty
+  /// output "L_T1", or output 1 where it has no name.
+  std::string output(Eigen::Index place) const;
 };
 
 struct Arx {

@@ -50,10 +50,9 @@ Held held_back(const Arx& model, const Records& records, Eigen::Index from) {
     held.error[c] = mean_square(left.col(c));
     held.still[c] = mean_square(now.col(c) - before.col(c));
     held.variance[c] = variance(now.col(c));
-    if (!(held.variance[c] > 0) || !std::isfinite(held.error[c]))
-      throw InputError("/holdout", fmt::format("output {} says nothing in the rows held back: it is missing or never "
-                                               "changes there",
-                                               c + 1));
+    if (held.variance[c] > 0 && std::isfinite(held.error[c])) continue;
+    throw InputError("/holdout",
+                     records.output(c) + " says nothing in the rows held back: it is missing or never changes there");
   }
   return held;
 }

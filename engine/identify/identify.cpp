@@ -75,7 +75,7 @@ Identified identify(std::string_view text, const Task& task) {
   found.outputs = chosen_columns(header, task.outputs);
   const std::vector<std::string> inputs = chosen_columns(header, task.inputs);
   if (!task.label.empty()) chosen_columns(header, {task.label});
-  Records records{read_table(text, found.outputs).values, {}};
+  Records records{read_table(text, found.outputs).values, {}, found.outputs};
   found.rows = records.outputs.rows();
   records.inputs.resize(found.rows, 0);
   if (!inputs.empty()) {

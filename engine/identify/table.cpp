@@ -15,6 +15,7 @@ namespace vigil::identify {
 namespace {
 
 constexpr std::size_t kMostColumns = 10'000;
+constexpr double kLargest = 1e100;  ///< squares and their sums stay finite
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view trimmed(std::string_view cell) {
@@ -103,9 +104,9 @@ double number(std::string_view text, std::size_t line, std::size_t column, const
   if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-    refuse(line,
-           fmt::format("column {} ({}) is {}; expected a finite number or nothing", column + 1, name, in_quotes(text)));
+  if (error != std::errc() || end != digits.data() + digits.size() || !(std::abs(value) <= kLargest))
+    refuse(line, fmt::format("column {} ({}) is {}; expected a number up to 1e100 or nothing", column + 1, name,
+                             in_quotes(text)));
   return value;
 }
 

@@ -23,7 +23,7 @@ std::vector<std::string> chosen_columns(const std::vector<std::string>& header,
                                         const std::vector<std::string>& patterns);
 
 /// Reads those columns; the cells of others are never looked at. Throws InputError naming line and column: ragged rows,
-/// names that are not there or there twice, numbers that are not, non-finite numbers, more than `max_cells` cells.
+/// names that are not there or there twice, numbers that are not, or are beyond 1e100, more than `max_cells` cells.
 /// CRLF, a byte order mark, quoted cells and blanks around names and numbers are read.
 Table read_table(std::string_view text, const std::vector<std::string>& columns, std::size_t max_cells = 20'000'000);
 

@@ -91,6 +91,15 @@ TEST(Identify, RefusesWhatCannotBeARun) {
   refused([](Task& t) { t.label = "pump1"; });
   refused([](Task& t) { t.label = "flags"; });
   refused([](Task& t) { t.inputs = {"time"}; });
+  try {
+    Task other = both_tanks();
+    other.outputs = {"spare"};
+    other.inputs = {};
+    identify(text, other);
+    ADD_FAILURE() << "it never changes";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("output \"spare\" never changes"), std::string::npos) << error.what();
+  }
   std::string wide = "y";
   for (int c = 1; c <= 12; ++c) wide += fmt::format(",u{}", c);
   for (int k = 0; k < 200; ++k) {

@@ -34,6 +34,7 @@ TEST(Table, NamesLineAndColumn) {
   expect_refused("a,b\n1,2\n3,four\n", {"b"}, "line 3: column 2 (b) is \"four\"");
   expect_refused("a,b\n1,inf\n", {"b"}, "line 2: column 2 (b)");
   expect_refused("a,b\n1,nan\n", {"b"}, "line 2: column 2 (b)");
+  expect_refused("a,b\n1,-1e101\n", {"b"}, "line 2: column 2 (b)");
   expect_refused("a,b\n1,1e999\n", {"b"}, "line 2: column 2 (b)");
   expect_refused("a,b\n1,2\n1\n", {"b"}, "line 3: the row has 1 cells");
   expect_refused("a,b\n1,2\n\n1,2\n", {"b"}, "line 3");
