@@ -58,7 +58,7 @@ Json scenario_of(const Identified& identified, const Task& task) {
           {"noise", {{"Q", rows_of(space.Q)}, {"P0", rows_of(space.P0)}}},
           {"initial", {{"estimates", estimates}}},
           {"lanes", lanes(task.window)},
-          {"view", {{"detector", true}, {"mapping", to_json(identified.mapping)}}}};
+          {"view", {{"detector", true}, {"lane", "all_fixed"}, {"mapping", to_json(identified.mapping)}}}};
 }
 
 }  // namespace vigil::identify
