@@ -21,11 +21,18 @@ bool ends(std::string_view text, std::string_view tail) {
   return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
 }
 
+/// How well a fusion centre's user and those who listen know the state: lanes are compared by it.
+bool compares(const Signal& signal) {
+  const bool who = signal.node == "fused" || starts(signal.node, "eve.");
+  return who && (ends(signal.name, ".square") || ends(signal.name, ".trace"));
+}
+
 bool in_overview(const Signal& signal) {
   if (!signal.lane.empty()) {
     const std::string own = "lane." + signal.lane + ".";  // a plant of the lane's own is for those who look at the lane
     if (starts(signal.name, own + "truth.") || starts(signal.name, own + "input.")) return false;
-    return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error") || ends(signal.name, ".alarm");
+    return (signal.node.empty() && signal.link.empty()) || ends(signal.name, ".error") || ends(signal.name, ".alarm") ||
+           compares(signal);
   }
   for (const char* head : {"truth.", "input.", "actuator.", "fault."}) {
     if (starts(signal.name, head)) return true;

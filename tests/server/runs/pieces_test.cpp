@@ -95,22 +95,27 @@ TEST(Topics, ALaneThatReconstructsComesWithWhatWasInjected) {
   }
 }
 
-TEST(Topics, ALaneWithAFusionCentreComesWithWhoIsOverheard) {
-  const auto carries = [](const char* preset, const std::string& lane, const char* name) {
+TEST(Topics, LanesWithAFusionCentreAreComparedInTheOverviewAndEachSaysWhoIsOverheard) {
+  const auto carries = [](const char* preset, const std::string& wanted, const char* name) {
     RunOrder order;
     order.scenario = Scenario::preset(preset);
     const vigil::Run run = make_run(order);
     for (const HubTopic& topic : hub_topics(run.catalogue(), order.scenario.document())) {
-      if (topic.name != "lane:" + lane) continue;
+      if (topic.name != wanted) continue;
       return std::any_of(topic.signals.begin(), topic.signals.end(),
                          [&](int id) { return run.catalogue()[id].name == name; });
     }
     return false;
   };
-  EXPECT_TRUE(carries("privacy-robot-linear", "contamination", "link.1-fused.overheard"));
-  EXPECT_TRUE(carries("privacy-robot-linear", "contamination", "lane.contamination.eve.fusing.square"));
-  EXPECT_FALSE(carries("privacy-robot-linear", "contamination", "link.1-fused.state"));
-  EXPECT_FALSE(carries("consensus", "consensus", "link.1-2.overheard"));
+  EXPECT_TRUE(carries("privacy-robot-linear", "lane:contamination", "link.1-fused.overheard"));
+  EXPECT_TRUE(carries("privacy-robot-linear", "lane:contamination", "lane.contamination.eve.fusing.square"));
+  EXPECT_FALSE(carries("privacy-robot-linear", "lane:contamination", "link.1-fused.state"));
+  EXPECT_FALSE(carries("consensus", "lane:consensus", "link.1-2.overheard"));
+  for (const char* own : {"fused.square", "fused.trace", "eve.fusing.square", "eve.zero.trace"}) {
+    EXPECT_TRUE(carries("privacy-robot-linear", "overview", (std::string("lane.unprotected.") + own).c_str())) << own;
+  }
+  EXPECT_FALSE(carries("privacy-robot-linear", "overview", "lane.unprotected.1.square"));
+  EXPECT_FALSE(carries("privacy-robot-linear", "overview", "lane.unprotected.eve.fusing.estimate.position"));
 }
 
 TEST(Topics, TheOverviewHasEveryAlarm) {

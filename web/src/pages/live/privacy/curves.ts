@@ -64,10 +64,10 @@ interface SquareOptions {
   without?: readonly string[];
 }
 
-function pair(curve: Curve, name: string, look: Look, traces: boolean, unstreamed: boolean, strong: boolean): LineSpec[] {
+function pair(curve: Curve, name: string, look: Look, traces: boolean, strong: boolean): LineSpec[] {
   const lines: LineSpec[] = [];
-  if (traces && curve.trace) lines.push({ key: curve.trace, name: t('trace_of', { name }), signal: curve.trace, token: look.token, dash: look.dash, width: 0.8, map: clipped, unstreamed });
-  if (curve.square) lines.push({ key: curve.square, name, signal: curve.square, token: look.token, dash: look.dash, width: look.width, map: clipped, unstreamed, strong });
+  if (traces && curve.trace) lines.push({ key: curve.trace, name: t('trace_of', { name }), signal: curve.trace, token: look.token, dash: look.dash, width: 0.8, map: clipped });
+  if (curve.square) lines.push({ key: curve.square, name, signal: curve.square, token: look.token, dash: look.dash, width: look.width, map: clipped, strong });
   return lines;
 }
 
@@ -77,18 +77,19 @@ export function laneSquares(model: RunModel, lane: LaneModel, { turned, traces, 
   return curvesOf(model, lane)
     .filter(({ id }) => isShown(turned, id) && !without.includes(id))
     .toReversed()
-    .flatMap((curve) => pair(curve, curveWord(curve), lookOf(curve, lane, nodes), traces, false, curve.role === 'fused'));
+    .flatMap((curve) => pair(curve, curveWord(curve), lookOf(curve, lane, nodes), traces, curve.role === 'fused'));
 }
 
-/** The legitimate user's squared errors in every lane (figure 4-2), and under them what is best. */
+/** The legitimate user's squared errors in every lane (figure 4-2), and under them what is best. The overview has them all. */
 export function userSquares(model: RunModel, lanes: readonly LaneModel[], chosen: LaneModel | null, { turned, traces }: SquareOptions): LineSpec[] {
-  const best = lanes.flatMap((lane) => curvesOf(model, lane).filter(({ role, square }) => role === 'optimal' && square))[0];
+  // What is best is the same in every lane; the chosen one's is streamed.
+  const best = (chosen ? curvesOf(model, chosen) : []).find(({ role, square }) => role === 'optimal' && square);
   const own = lanes.flatMap((lane) =>
     curvesOf(model, lane)
       .filter(({ role }) => role === 'fused')
-      .flatMap((curve) => pair(curve, laneWord(lane.id), { token: lane.token, dash: lane.dash, width: lane === chosen ? 2.2 : 1.5 }, traces, lane !== chosen, lane === chosen)),
+      .flatMap((curve) => pair(curve, laneWord(lane.id), { token: lane.token, dash: lane.dash, width: lane === chosen ? 2.2 : 1.5 }, traces, lane === chosen)),
   );
-  return [...own, ...(best && isShown(turned, 'optimal') ? pair(best, t('role_optimal'), lookOf(best, { token: 'ink' }, []), traces, true, false) : [])];
+  return [...own, ...(best && isShown(turned, 'optimal') ? pair(best, t('role_optimal'), lookOf(best, { token: 'ink' }, []), traces, false) : [])];
 }
 
 /** Squared errors of those who listen, lane by lane (figures 2-4, 2-7, 4-3): whom a mechanism is meant against always, in the lane's dash, others in their own. */
@@ -99,7 +100,7 @@ export function eveSquares(model: RunModel, lanes: readonly LaneModel[], chosen:
       .flatMap((curve, i) => {
         if (i > 0 && !isShown(turned, curve.id)) return [];
         const look = { token: lane.token, dash: i === 0 ? lane.dash : lookOf(curve, lane, []).dash, width: i > 0 ? 1.1 : lane === chosen ? 2.2 : 1.5 };
-        return pair(curve, `${laneWord(lane.id)}, ${variantWord(curve.variant ?? '')}`, look, traces, lane !== chosen, lane === chosen && i === 0);
+        return pair(curve, `${laneWord(lane.id)}, ${variantWord(curve.variant ?? '')}`, look, traces, lane === chosen && i === 0);
       }),
   );
 }

@@ -100,7 +100,8 @@ describe('lines', () => {
 
   it('of all users are in their lanes’ colours, with what is best once', () => {
     const lines = userSquares(model, model.lanes, lane('two_step'), { turned: [], traces: false });
-    expect(lines.map(({ name, unstreamed }) => [name, unstreamed])).toEqual([['unprotected', true], ['two step', false], ['contamination', true], ['secrecy code a', true], ['optimal fusion', true]]);
+    expect(lines.map(({ name, strong }) => [name, strong])).toEqual([['unprotected', false], ['two step', true], ['contamination', false], ['secrecy code a', false], ['optimal fusion', false]]);
+    expect(lines.at(-1)!.signal).toBe('lane.two_step.optimal.square');
   });
 
   it('of all eavesdroppers name whom they are of', () => {
