@@ -39,4 +39,13 @@ double metric(const std::vector<MetricValue>& metrics, const std::string& lane, 
   return 0;
 }
 
+void expect_refused(const Json& document, const std::string& pointer) {
+  try {
+    const vigil::Run run(Scenario::from_json(document), {1, nullptr, {}});
+    ADD_FAILURE() << "accepted; expected a problem at " << pointer;
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().front().pointer, pointer) << error.what();
+  }
+}
+
 }  // namespace vigil::test

@@ -35,4 +35,7 @@ void expect_same(const vigil::Run& a, const Capture& left, const vigil::Run& b, 
 double metric(const std::vector<MetricValue>& metrics, const std::string& lane, const std::string& name,
               const std::string& node = "");
 
+/// The document, or a run of it, is refused with its first problem at this pointer.
+void expect_refused(const Json& document, const std::string& pointer);
+
 }  // namespace vigil::test

@@ -231,54 +231,45 @@ TEST(PrivacyRun, NoiseOnLinksServesAnyLaneThatTalks) {
   EXPECT_EQ(some.at("lane.clean.1.estimate.x", 30), without.at("lane.clean.1.estimate.x", 30));
 }
 
-void expect_refused(const Json& document, const std::string& pointer) {
-  try {
-    const vigil::Run run(Scenario::from_json(document), {1, nullptr, {}});
-    ADD_FAILURE() << "accepted; expected a problem at " << pointer;
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.problems().front().pointer, pointer) << error.what();
-  }
-}
-
 TEST(PrivacyRun, RefusesWhatCannotBe) {
   Json consensus = Scenario::preset("consensus").document();
   consensus["lanes"]["consensus"]["protection"] = {{"type", "two_step"}};
-  expect_refused(consensus, "/lanes/consensus/protection/params");  // not linear
+  test::expect_refused(consensus, "/lanes/consensus/protection/params");  // not linear
   consensus["lanes"]["consensus"]["protection"] = {{"type", "contamination"}};
-  expect_refused(consensus, "/lanes/consensus/protection/type");  // no centre
+  test::expect_refused(consensus, "/lanes/consensus/protection/type");  // no centre
   consensus["lanes"]["consensus"]["protection"] = {{"type", "two_steps"}};
-  expect_refused(consensus, "/lanes/consensus/protection/type");
+  test::expect_refused(consensus, "/lanes/consensus/protection/type");
   consensus["lanes"]["consensus"].erase("protection");
   consensus["lanes"]["isolated"]["protection"] = {{"type", "gaussian_noise"}};
-  expect_refused(consensus, "/lanes/isolated/protection/type");
+  test::expect_refused(consensus, "/lanes/isolated/protection/type");
   Json engine = privacy("engine").document();
   const auto with = [&](const std::string& lane, const std::string& name, const Json& value) {
     Json changed = engine;
     changed["lanes"][lane]["protection"]["params"][name] = value;
     return changed;
   };
-  expect_refused(with("two_step", "tq", 0), "/lanes/two_step/protection/params/tq");
-  expect_refused(with("two_step", "epsilon", 0), "/lanes/two_step/protection/params/epsilon");
-  expect_refused(with("two_step", "delta", .5), "/lanes/two_step/protection/params/delta");
-  expect_refused(with("two_step", "zeta", -1), "/lanes/two_step/protection/params/zeta");
-  expect_refused(with("two_step", "H", {1, 2, 1}), "/lanes/two_step/protection/params/H");
-  expect_refused(with("two_step", "q_xi", {1}), "/lanes/two_step/protection/params/q_xi");
-  expect_refused(with("contamination", "m", 7), "/lanes/contamination/protection/params/m");
-  expect_refused(with("secrecy_code_a", "loss", 1.5), "/lanes/secrecy_code_a/protection/params/loss");
+  test::expect_refused(with("two_step", "tq", 0), "/lanes/two_step/protection/params/tq");
+  test::expect_refused(with("two_step", "epsilon", 0), "/lanes/two_step/protection/params/epsilon");
+  test::expect_refused(with("two_step", "delta", .5), "/lanes/two_step/protection/params/delta");
+  test::expect_refused(with("two_step", "zeta", -1), "/lanes/two_step/protection/params/zeta");
+  test::expect_refused(with("two_step", "H", {1, 2, 1}), "/lanes/two_step/protection/params/H");
+  test::expect_refused(with("two_step", "q_xi", {1}), "/lanes/two_step/protection/params/q_xi");
+  test::expect_refused(with("contamination", "m", 7), "/lanes/contamination/protection/params/m");
+  test::expect_refused(with("secrecy_code_a", "loss", 1.5), "/lanes/secrecy_code_a/protection/params/loss");
   Json blind = engine;
   blind["nodes"]["1"]["sensor"]["params"]["C"] = Json::array({Json::array({0, 0, 0})});
   blind["plant"]["params"]["A"][0][0] = 1.2;
   blind["initial"]["x0_random"] = false;
-  expect_refused(blind, "/initial/estimates");
+  test::expect_refused(blind, "/initial/estimates");
   Json none = engine;
   none["network"]["graph"] = "none";
-  expect_refused(none, "/lanes/unprotected/params");
+  test::expect_refused(none, "/lanes/unprotected/params");
   Json turn = privacy("turn").document();
   turn["initial"]["x0_random"] = true;
-  expect_refused(turn, "/initial/x0_random");
+  test::expect_refused(turn, "/initial/x0_random");
   turn["initial"]["x0_random"] = false;
   turn["lanes"]["dp_uniform"]["protection"]["params"]["shares"] = {.5, .6};
-  expect_refused(turn, "/lanes/dp_uniform/protection/params/shares");
+  test::expect_refused(turn, "/lanes/dp_uniform/protection/params/shares");
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ TEST(Presets, AreValidCompleteAndStable) {
   for (const auto& id : Scenario::preset_ids()) {
     const Scenario preset = Scenario::preset(id);
     EXPECT_EQ(preset.id(), id);
-    const bool named = id == "sparse" || id.starts_with("replay-") || id.starts_with("observer-");
+    const bool named =
+        id == "sparse" || id.starts_with("replay-") || id.starts_with("observer-") || id.starts_with("privacy-");
     EXPECT_EQ(preset.family(), named ? id.substr(0, id.find('-')) : "consensus");
     EXPECT_EQ(Scenario::from_json(preset.document()).document().dump(), preset.document().dump()) << id;
     EXPECT_EQ(Scenario::from_json(Json::parse(preset.document().dump())).document(), preset.document()) << id;
@@ -46,12 +47,18 @@ TEST(Presets, HaveTheContractsLanesInOrder) {
   EXPECT_EQ(keys(Scenario::preset("replay-nongaussian").document()["lanes"]), replay);
   replay.back() = "zonotope";
   EXPECT_EQ(keys(Scenario::preset("replay-ubb").document()["lanes"]), replay);
-  const auto observer = [](const char* id) { return keys(Scenario::preset(id).document()["lanes"]); };
-  EXPECT_EQ(observer("observer-pair"),
+  const auto lanes = [](const char* id) { return keys(Scenario::preset(id).document()["lanes"]); };
+  EXPECT_EQ(lanes("privacy-robot-linear"), (std::vector<std::string>{"unprotected", "contamination", "complex_noise"}));
+  EXPECT_EQ(lanes("privacy-robot-nonlinear"), (std::vector<std::string>{"unprotected", "contamination"}));
+  EXPECT_EQ(lanes("privacy-turn"),
+            (std::vector<std::string>{"unprotected", "dp_centre", "dp_uniform", "dp_one_sensor"}));
+  EXPECT_EQ(lanes("privacy-engine"),
+            (std::vector<std::string>{"unprotected", "two_step", "contamination", "secrecy_code_a", "secrecy_code_l"}));
+  EXPECT_EQ(lanes("observer-pair"),
             (std::vector<std::string>{"intermediate_fast", "intermediate_ref", "intermediate_printed"}));
-  EXPECT_EQ(observer("observer-areas"),
+  EXPECT_EQ(lanes("observer-areas"),
             (std::vector<std::string>{"intermediate_fast", "intermediate_ref", "matched_uio"}));
-  EXPECT_EQ(observer("observer-single"),
+  EXPECT_EQ(lanes("observer-single"),
             (std::vector<std::string>{"intermediate_fast", "intermediate_ref", "classical_fast", "classical_ref"}));
 }
 

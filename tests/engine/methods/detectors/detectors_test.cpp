@@ -131,24 +131,16 @@ TEST(Detectors, ALaneWithoutAnInnovationSaysSo) {
   EXPECT_NE(run.warnings().front().find("nothing to judge"), std::string::npos);
 }
 
-void expect_refused(const Json& document, const std::string& pointer) {
-  try {
-    const vigil::Run run(Scenario::from_json(document), {1, nullptr, {}});
-    ADD_FAILURE() << "accepted; expected a problem at " << pointer;
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.problems().front().pointer, pointer) << error.what();
-  }
-}
-
 TEST(Detectors, RefuseWhatCannotBe) {
   const Json chi = {{"type", "chi_square"}};
-  expect_refused(with_detector("replay-mixed", "repaired", chi), "/lanes/repaired/detector/type");
-  expect_refused(with_detector("consensus", "isolated", {{"type", "chi_squared"}}), "/lanes/isolated/detector/type");
-  expect_refused(with_detector("consensus", "isolated", {{"type", "chi_square"}, {"params", {{"alpha", 1}}}}),
-                 "/lanes/isolated/detector/params/alpha");
+  test::expect_refused(with_detector("replay-mixed", "repaired", chi), "/lanes/repaired/detector/type");
+  test::expect_refused(with_detector("consensus", "isolated", {{"type", "chi_squared"}}),
+                       "/lanes/isolated/detector/type");
+  test::expect_refused(with_detector("consensus", "isolated", {{"type", "chi_square"}, {"params", {{"alpha", 1}}}}),
+                       "/lanes/isolated/detector/params/alpha");
   Json monitor = with_detector("consensus", "isolated", chi);
   monitor["lanes"]["isolated"]["path"] = "monitor";
-  expect_refused(monitor, "/lanes/isolated/detector/type");
+  test::expect_refused(monitor, "/lanes/isolated/detector/type");
 }
 
 }  // namespace
