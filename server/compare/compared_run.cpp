@@ -82,6 +82,7 @@ ComparedRun run_of_log(const LogReader& reader, const RunRow& row) {
   if (row.parent) run.parent = {{"run", std::to_string(row.parent->run)}, {"k", row.parent->k}};
   run.dt = row.dt;
   run.document = row.document;
+  run.input = row.input;
   run.live = row.commands;
   run.metrics = row.metrics;
   run.signals = logged(reader, row.id);

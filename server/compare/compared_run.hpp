@@ -27,6 +27,7 @@ struct ComparedRun {
   Json parent;                ///< {"run","k"} or null
   double dt = 0;              ///< s
   Json document;              ///< null: not known
+  Json input;                 ///< "simulate", {"trace":id}, …; null: not known
   std::vector<Command> live;  ///< what it took while it ran
   std::vector<MetricValue> metrics;
   std::vector<Signal> signals;           ///< those that have samples

@@ -55,6 +55,7 @@ std::vector<Group> groups(const std::vector<ComparedRun>& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!runs[i].seed || !runs[i].document.is_object()) continue;
     Json what = runs[i].document;
+    what["input"] = runs[i].input;
     for (const Command& command : runs[i].live) what["commands"].push_back({command.k, command.body});
     const std::string text = what.dump();
     auto place = std::find_if(all.begin(), all.end(), [&](const Group& group) { return group.what == text; });

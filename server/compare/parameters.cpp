@@ -1,6 +1,7 @@
 #include "server/compare/parameters.hpp"
 
 #include <map>
+#include <optional>
 
 namespace vigil {
 namespace {
@@ -13,9 +14,12 @@ void flatten(const Json& value, const std::string& path, std::map<std::string, J
   for (const auto& [key, member] : value.items()) flatten(member, path.empty() ? key : path + "." + key, into);
 }
 
+bool same(const Json* a, const Json* b) { return a == b || (a != nullptr && b != nullptr && *a == *b); }
+
 std::map<std::string, Json> members(const ComparedRun& run) {
   std::map<std::string, Json> all;
   if (run.document.is_object()) flatten(run.document, "", all);
+  if (!run.input.is_null()) all["input"] = run.input;
   std::map<std::int64_t, int> count;
   for (const Command& command : run.live) {
     const std::string path = "commands." + std::to_string(command.k) + "." + std::to_string(count[command.k]++);
@@ -36,18 +40,15 @@ Json differing_parameters(const std::vector<ComparedRun>& runs) {
   Json rows = Json::array();
   for (const auto& [path, there] : paths) {
     Json values = Json::array();
-    const Json* known = nullptr;
+    std::optional<const Json*> known;  // a pointer to nothing: known not to be there
     bool differs = false;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const auto place = documents[i].find(path);
-      values.push_back(place == documents[i].end() ? Json() : place->second);
-      if (runs[i].document.is_null()) continue;
       const Json* own = place == documents[i].end() ? nullptr : &place->second;
-      static const Json absent = "absent";
-      const Json* shown = own == nullptr ? &absent : own;
-      differs = differs || (known != nullptr && (known == &absent) != (shown == &absent)) ||
-                (known != nullptr && *known != *shown);
-      known = known == nullptr ? shown : known;
+      values.push_back(own == nullptr ? Json() : *own);
+      if (runs[i].document.is_null()) continue;
+      if (!known) known = own;
+      differs = differs || !same(*known, own);
     }
     if (differs) rows.push_back({{"path", path}, {"values", std::move(values)}});
   }

@@ -4,6 +4,9 @@ import type { Question } from './question';
 import { leastRuns } from './question';
 import type { Comparison } from './types';
 
+/** Buckets of a chart: about its width in px. */
+const kPoints = 600;
+
 export class Asked {
   comparison = $state.raw<Comparison | null>(null);
   problem = $state.raw<unknown>(null);
@@ -25,7 +28,7 @@ export class Asked {
     this.loading = true;
     void this.#offer(ids[0]!, abort.signal);
     try {
-      const comparison = await get<Comparison>('/compare', { ids: ids.join(','), ...rest }, abort.signal);
+      const comparison = await get<Comparison>('/compare', { ids: ids.join(','), ...rest, points: kPoints }, abort.signal);
       if (abort.signal.aborted) return;
       this.comparison = comparison;
       this.problem = null;

@@ -77,16 +77,3 @@ export function drawRuns(context: CanvasRenderingContext2D, g: Geometry, all: re
   });
   context.restore();
 }
-
-export function drawCursor(context: CanvasRenderingContext2D, g: Geometry, k: number): void {
-  const x = Math.round(xOf(g, k)) + 0.5;
-  if (x < g.left || x > g.width - g.right) return;
-  context.save();
-  context.strokeStyle = colour('ink');
-  context.setLineDash([2, 3]);
-  context.beginPath();
-  context.moveTo(x, g.top);
-  context.lineTo(x, g.height - g.bottom);
-  context.stroke();
-  context.restore();
-}
