@@ -93,8 +93,20 @@ export const panels: readonly PanelEntry[] = [
   { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true, sized: sizeIn('events') },
 ];
 
+const others = new WeakMap<PanelEntry, PanelEntry>();
+
+/** The entry in another size, the same object as long as the size is the same: a panel whose entry is new is made anew. */
+function resized(panel: PanelEntry, wide: PanelEntry['wide']): PanelEntry {
+  if (wide.join() === panel.wide.join()) return panel;
+  const known = others.get(panel);
+  if (known?.wide.join() === wide.join()) return known;
+  const entry = { ...panel, wide };
+  others.set(panel, entry);
+  return entry;
+}
+
 export function panelsOf(run: RunDetail, model: RunModel): readonly PanelEntry[] {
-  return panels.filter((panel) => panel.applies(run, model)).map((panel) => ({ ...panel, wide: panel.sized?.(run, model) ?? panel.wide }));
+  return panels.filter((panel) => panel.applies(run, model)).map((panel) => resized(panel, panel.sized?.(run, model) ?? panel.wide));
 }
 
 export interface Rows {

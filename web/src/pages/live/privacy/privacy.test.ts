@@ -12,13 +12,10 @@ import { clipped, curveKeys, eveSquares, laneSquares, lookOf, mostDrawn, trackLi
 import { designOf } from './design';
 import { run, signals, surfaces, twoStep } from './fixture';
 import { guaranteedLanes, rowsOf, sampledShare, viewWord } from './guarantee';
-import { contaminatedOf, linksOf } from './messages';
 import { placesOf } from './network_draw';
-import { independent, normalDensity, wilson } from './normal';
-import { sceneOf } from './releases_draw';
+import { independent, wilson } from './normal';
 import { sentencesOf, type LaneFacts } from './sentences';
 import { falls, indexOf } from './surfaces_draw';
-import { boxOf, type Path } from './tracks_draw';
 import { t } from './words';
 
 const model = makeModel(run, signals);
@@ -45,6 +42,12 @@ describe('a fusion centre', () => {
     expect(shown(['contamination', 'complex_noise'])).toMatchObject({ tracks: [5, 2], messages: [8, 1], events: [4, 1] });
     expect(shown(['contamination'])).not.toHaveProperty('guarantee');
     expect(shown(['dp_centre', 'dp_sensors'])).toMatchObject({ surfaces: [5, 1], events: [3, 1], guarantee: [5, 1] });
+  });
+
+  it('keeps the entries of its panels, whatever the server says next: none is made anew', () => {
+    const document = { ...run.document, lanes: { unprotected: { protection: { type: 'dp_centre' } } } };
+    const entries = (): readonly object[] => panelsOf({ ...run, document }, model);
+    entries().forEach((entry, i) => expect(entries()[i]).toBe(entry));
   });
 
   it('has curves of the user, what is best, the nodes and all who listen', () => {
@@ -250,42 +253,6 @@ describe('the guarantee', () => {
   it('has words for its observers, and the name itself for others', () => {
     expect(viewWord('diff')).toBe('difference of two messages');
     expect(viewWord('some_other')).toBe('some other');
-  });
-});
-
-describe('densities', () => {
-  it('of two neighbours lie in one picture that holds both peaks', () => {
-    const scene = sceneOf([{ mean: 0, deviation: 1, token: 'a', dash: [], word: '' }, { mean: 3, deviation: 1, token: 'b', dash: [], word: '' }], [], null, 'a');
-    expect([scene.from, scene.to]).toEqual([-3.6, 6.6]);
-    expect(scene.most).toBeGreaterThan(normalDensity(0, 0, 1));
-    expect(scene.histogram).toBeNull();
-  });
-
-  it('hold every sample and the bound', () => {
-    const scene = sceneOf([{ mean: 0.1, deviation: 0.4, token: 'a', dash: [], word: '' }], [-4, 0, 0.1, 0.2], { at: 5, word: 'ε' }, 'a');
-    expect([scene.from, scene.to]).toEqual([-4, 5]);
-    const { density, width } = scene.histogram!;
-    expect([...density].reduce((sum, value) => sum + value * width, 0)).toBeCloseTo(1, 12);
-  });
-});
-
-describe('messages', () => {
-  it('are the links to the centre, and the components that their sender contaminates', () => {
-    expect(linksOf(model)).toEqual(['1', '2'].map((from) => ({ id: `${from}-fused`, from, to: 'fused', state: `link.${from}-fused.state`, overheard: `link.${from}-fused.overheard` })));
-    expect(contaminatedOf(model, lane('contamination')).map(({ node, component }) => `${node} ${component}`)).toEqual(['1 x1', '1 x2', '2 x1', '2 x2']);
-    expect(contaminatedOf(model, lane('two_step'))).toEqual([]);
-  });
-});
-
-describe('paths in the plane', () => {
-  const look = { token: 'ink', dash: [], width: 1 };
-  const path = (x: number[], y: number[], held: boolean): Path => ({ x: series(x), y: series(y), look, held });
-
-  it('hold the true and the user’s, and of one who listens what is near', () => {
-    const box = boxOf([path([0, 10], [0, 10], true), path([-5, 4], [2, 3], false)], 1)!;
-    expect(box).toEqual({ x0: -5.5, x1: 10.5, y0: -0.5, y1: 10.5 });
-    expect(boxOf([path([0, 10], [0, 10], true), path([-1e9, 1e9], [0, 0], false)], 1)).toMatchObject({ x0: -10.5, x1: 20.5 });
-    expect(boxOf([path([NaN], [NaN], true)], 1)).toBeNull();
   });
 });
 
