@@ -6,6 +6,8 @@
 #include <charconv>
 #include <set>
 
+#include "engine/core/describe.hpp"
+
 namespace vigil {
 namespace {
 
@@ -51,6 +53,7 @@ class StrictParse {
 /// What nlohmann says, without its "[json.exception.…]".
 std::string parse_sentence(const std::string& what) {
   const auto end = what.find("] ");
+  if (!is_utf8(what)) return "The body is not valid JSON.";  // it quotes half a letter
   return "The body is not valid JSON: " + (end == std::string::npos ? what : what.substr(end + 2)) + ".";
 }
 

@@ -53,6 +53,7 @@ class EveryRoute : public SystemTest {
     SystemTest::SetUp();
     run_ = client_->start({{"scenario", "consensus"}, {"pace", 50}, {"patch", {{"time", {{"steps", nullptr}}}}}});
     ASSERT_TRUE(eventually([&] { return client_->tick(run_) > 3; }));
+    fed_ = client_->start({{"scenario", "consensus"}, {"input", "ingest"}});
     const Answer trace = client_->send("POST", "/api/v1/traces", "k,t,input.x\n0,0,\n1,1,1\n", "text/csv");
     trace_ = trace.json.value("id", "0");
     client_->post("/api/v1/runs/" + run_ + "/attacks", {{"id", "a1"}, {"type", "dos"}, {"on", {"link:1-2"}}});
@@ -70,6 +71,7 @@ class EveryRoute : public SystemTest {
       if (place != std::string::npos) path.replace(place, name.size(), value);
     };
     put("{id}", scenario ? (method == "get" ? "consensus" : "mine") : trace ? trace_ : run_);
+    put("{run}", fed_);
     put("{aid}", "a1");
     put("{key}", design_);
     return path;
@@ -83,6 +85,7 @@ class EveryRoute : public SystemTest {
     if (path.ends_with("/runs") || path.ends_with("/designs")) return R"({"scenario":"consensus"})";
     if (method == "put") return document_;
     if (method == "patch") return R"({"note":"x"})";
+    if (path.find("/ingest/") != std::string::npos) return R"({"k":0,"values":{}})";
     if (path.ends_with("/session")) return R"({"token":"none"})";
     return "{}";
   }
@@ -113,7 +116,7 @@ class EveryRoute : public SystemTest {
     return status;
   }
 
-  std::string run_, trace_, bundle_, document_, design_;
+  std::string run_, fed_, trace_, bundle_, document_, design_;
 };
 
 TEST_F(EveryRoute, OfTheDescriptionAnswers) {

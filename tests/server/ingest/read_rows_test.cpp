@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/core/describe.hpp"
 #include "server/front/message.hpp"
 
 namespace vigil {
@@ -36,6 +37,7 @@ class ReadRows : public ::testing::Test {
       ADD_FAILURE() << "was read";
     } catch (const HttpError& error) {
       EXPECT_EQ(error.status(), 400);
+      EXPECT_TRUE(is_utf8(error.what()));
     }
   }
   static constexpr const char* kLines = "application/x-ndjson";
@@ -96,6 +98,7 @@ TEST_F(ReadRows, WhatIsWrongIsNamed) {
   unreadable(kLines, "{\"k\":1,\"k\":2,\"values\":{}}");
   unreadable(kLines, std::string(100'000, '['));
   unreadable(kLines, "{\"k\":1,\"values\":{\"\xff\":1}}");
+  unreadable(kJson, "[{\xef\xbb\xbf:3}]");
   refused(kLines, R"({"values":{}})", "/0/k");
   refused(kLines, R"({"k":-1,"values":{}})", "/0/k");
   refused(kLines, R"({"k":1e300,"values":{}})", "/0/k");
