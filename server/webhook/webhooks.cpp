@@ -57,6 +57,7 @@ Webhooks::~Webhooks() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
+    if (calling_ != nullptr) calling_->stop();
   }
   wake_.notify_all();
   if (thread_.joinable()) thread_.join();
@@ -151,12 +152,21 @@ void Webhooks::deliver(Hooks::iterator place, std::unique_lock<std::mutex>& lock
   if (hook.over && (hook.waiting.empty() || hook.failures >= options_.tries)) hooks_.erase(run);
 }
 
-bool Webhooks::post(const WebhookUrl& url, const std::string& body) const {
+bool Webhooks::post(const WebhookUrl& url, const std::string& body) {
   httplib::Client client(url.host, url.port);
   client.set_connection_timeout(options_.timeout);
   client.set_read_timeout(options_.timeout);
   client.set_write_timeout(options_.timeout);
+  {
+    const std::lock_guard lock(mutex_);
+    if (stop_) return false;
+    calling_ = &client;
+  }
   const auto result = client.Post(url.path.c_str(), body, "application/json");
+  {
+    const std::lock_guard lock(mutex_);
+    calling_ = nullptr;
+  }
   return result && result->status >= 200 && result->status < 300;
 }
 

@@ -17,6 +17,10 @@
 #include "db/records.hpp"
 #include "engine/core/json.hpp"
 
+namespace httplib {
+class Client;
+}
+
 namespace vigil {
 
 struct WebhookUrl {
@@ -76,7 +80,7 @@ class Webhooks {
   void work();
   Hooks::iterator next(Clock::time_point& wake);
   void deliver(Hooks::iterator place, std::unique_lock<std::mutex>& lock);
-  bool post(const WebhookUrl& url, const std::string& body) const;
+  bool post(const WebhookUrl& url, const std::string& body);
   void settle(RunId run, Hook& hook, bool arrived, std::size_t sent, std::int64_t dropped);
   void note(RunId run, Hook& hook, const std::string& code, const std::string& sentence);
 
@@ -85,7 +89,8 @@ class Webhooks {
   std::mutex mutex_;
   std::condition_variable wake_;
   Hooks hooks_;
-  std::atomic<int> told_{0};  ///< notes that wait to be fetched
+  std::atomic<int> told_{0};            ///< notes that wait to be fetched
+  httplib::Client* calling_ = nullptr;  ///< so that the end need not wait for a receiver
   bool stop_ = false;
   std::thread thread_;
 };
