@@ -138,6 +138,23 @@ TEST_F(CompareTest, RunsAreAlignedByTheirFirstAttack) {
   expect_problem(compare("ids=" + a + "," + calm + "&align=attack"), 400, "/align");
 }
 
+// The frames of a run, used as its trace, give the same lanes bit for bit: nothing differs but what the runs ran on.
+TEST_F(CompareTest, ATraceOfARunIsWithinAToleranceOfNothing) {
+  const std::string a = finished(1);
+  const Answer frames = client_->get("/api/v1/runs/" + a + "/samples", {{"Accept", "text/csv"}});
+  const Answer trace = client_->send("POST", "/api/v1/traces", frames.body, "text/csv");
+  ASSERT_EQ(trace.status, 201) << trace.body;
+  const std::string b =
+      client_->start({{"scenario", "consensus"}, {"seed", 1}, {"input", {{"trace", trace.json.at("id")}}}});
+  ASSERT_TRUE(client_->reaches(b, "finished"));
+  const Json answer = compare("ids=" + a + "," + b + "&signals=lane.*.error").json;
+  ASSERT_EQ(answer.at("verdicts").size(), 49u) << "six lanes at eight cameras, one at the centre";
+  for (const Json& verdict : answer.at("verdicts")) EXPECT_TRUE(verdict.at("holds").get<bool>()) << verdict;
+  ASSERT_EQ(answer.at("parameters").size(), 1u) << answer.at("parameters");
+  EXPECT_EQ(answer.at("parameters")[0].at("path"), "input");
+  EXPECT_EQ(answer.at("parameters")[0].at("values")[0], "simulate");
+}
+
 TEST_F(CompareTest, RefusesWithOneSentence) {
   const std::string a = finished(1), b = finished(2), both = "ids=" + a + "," + b;
   expect_problem(compare(""), 400, "/ids");
