@@ -194,6 +194,7 @@ void Webhooks::note(RunId run, Hook& hook, const std::string& code, const std::s
   mark.type = MarkType::note;
   mark.code = code;
   mark.detail = sentence;
+  if (!hook.waiting.empty()) mark.k = hook.waiting.back().at("k").get<std::int64_t>();
   if (hook.over) return late_(run, mark);
   hook.notes.push_back(std::move(mark));
   ++told_;

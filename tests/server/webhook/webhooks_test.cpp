@@ -131,6 +131,7 @@ TEST(Webhooks, ARunThatIsOverGivesUp) {
   hooks.send(7, alarm(1));
   hooks.close(7);
   ASSERT_TRUE(eventually([&] { return late.count() == 1; }));
+  EXPECT_EQ(late.marks[0].k, 1);
   EXPECT_TRUE(hooks.notes(7).empty());
 }
 
