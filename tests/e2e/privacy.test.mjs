@@ -172,6 +172,7 @@ describe('the privacy family', () => {
     await view.goto(`/live/${id}`);
     await tickPast(page, 2);
     const picture = panel(page, 'Messages').getByRole('img');
+    const tracks = await page.locator('section.tracks').elementHandle();
     await until('nobody listens', async () => (await picture.getAttribute('aria-label')).includes('link from 1 to fused is not overheard'));
     await button(page, 'Attack a link').focus();
     await page.keyboard.press('Enter');
@@ -185,6 +186,8 @@ describe('the privacy family', () => {
     await page.keyboard.press('Enter');
     await until('one link is overheard', async () => ((text) => text.includes('link from 2 to fused is overheard') && text.includes('link from 1 to fused is not overheard'))(await picture.getAttribute('aria-label')));
     await panel(page, 'Events').getByText(/eavesdrop/).first().waitFor();
+    await tickPast(page, 100);
+    assert.equal(await tracks.evaluate((place) => place.isConnected), true, 'panels stay as the run goes on');
     await view.close();
     await call(server, 'DELETE', `/runs/${id}`);
   });
