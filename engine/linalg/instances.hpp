@@ -24,6 +24,9 @@ VIGIL_INSTANCE class HessenbergDecomposition<MatrixXd>;
 VIGIL_INSTANCE class RealSchur<MatrixXd>;
 VIGIL_INSTANCE class EigenSolver<MatrixXd>;
 VIGIL_INSTANCE class SelfAdjointEigenSolver<MatrixXd>;
+VIGIL_INSTANCE SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute(const EigenBase<MatrixXd>&,
+                                                                                           int);
+VIGIL_INSTANCE EigenSolver<MatrixXd>& EigenSolver<MatrixXd>::compute(const EigenBase<MatrixXd>&, bool);
 
 namespace internal {
 
@@ -49,5 +52,21 @@ VIGIL_INSTANCE struct general_matrix_matrix_product<long, double, RowMajor, fals
 VIGIL_INSTANCE void evaluateProductBlockingSizesHeuristic<double, double, 1, long>(long&, long&, long&, long);
 VIGIL_INSTANCE void evaluateProductBlockingSizesHeuristic<double, double, 4, long>(long&, long&, long&, long);
 
+using InnerBlock = Block<MatrixXd, Dynamic, Dynamic, false>;
+using RowMajorXd = Matrix<double, Dynamic, Dynamic, RowMajor>;
+VIGIL_INSTANCE void apply_block_householder_on_the_left(InnerBlock&, const InnerBlock&,
+                                                        const VectorBlock<const VectorXd>&, bool);
+VIGIL_INSTANCE void make_block_householder_triangular_factor(RowMajorXd&, const InnerBlock&,
+                                                             const VectorBlock<const VectorXd>&);
+VIGIL_INSTANCE void make_block_householder_triangular_factor(RowMajorXd&, const InnerBlock&,
+                                                             const Block<const VectorXd, Dynamic, 1, false>&);
+
 }  // namespace internal
+
+using ConstColumnBlock = Block<const MatrixXd, Dynamic, 1, false>;
+VIGIL_INSTANCE void MatrixBase<internal::InnerBlock>::applyHouseholderOnTheLeft(const ConstColumnBlock&, const double&,
+                                                                                double*);
+VIGIL_INSTANCE void MatrixBase<internal::InnerBlock>::applyHouseholderOnTheRight(const ConstColumnBlock&, const double&,
+                                                                                 double*);
+
 }  // namespace Eigen
