@@ -247,6 +247,7 @@ void LiveRun::finish(std::string state, std::string error) {
   mark.code = state;
   mark.detail = error;
   sink_.mark(mark);
+  design_ = run_.design();  // a design may say where the run stands: the traces of covariances at its last tick
   auto last = std::make_shared<RunStatus>(*snapshot(true));
   last->state = state;
   last->error = error;

@@ -31,6 +31,16 @@ TEST_F(RunsTest, ARunFinishesAndIsFoundAgain) {
   EXPECT_FALSE(list.at("items")[0].contains("document"));
 }
 
+// Of a fusion lane the design says where covariances stand: at the end of a run at its last tick, in the answer and in
+// the log.
+TEST_F(RunsTest, AFinishedRunsDesignIsThatOfItsLastTick) {
+  const std::string id = client_->start({{"scenario", "privacy-engine"}, {"patch", {{"time", {{"steps", 100}}}}}});
+  ASSERT_TRUE(client_->reaches(id, "finished"));
+  const Json design = client_->get("/api/v1/runs/" + id).json.at("design").at("two_step");
+  EXPECT_NEAR(design.at("trace_legitimate").get<double>(), .0127116, 5e-8);
+  EXPECT_NEAR(design.at("trace_eavesdropper").at("differencing").get<double>(), .35644, 5e-6);
+}
+
 TEST_F(RunsTest, APatchAndAWholeDocumentAreTaken) {
   const std::string id = client_->start({{"scenario", "consensus"}, {"patch", {{"time", {{"steps", 5}}}}}});
   ASSERT_TRUE(client_->reaches(id, "finished"));

@@ -74,6 +74,7 @@ class EveryRoute : public SystemTest {
     put("{run}", fed_);
     put("{aid}", "a1");
     put("{key}", design_);
+    if (path.ends_with("/compare")) path += "?ids=" + run_ + "," + fed_;
     return path;
   }
 
