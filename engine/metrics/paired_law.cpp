@@ -39,7 +39,8 @@ double log_beta_half(double a) {
   return half - (0.5 * std::log(a) - one / 8 + cube / 192 - cube * one * one / 640);
 }
 
-/// Regularised incomplete beta function I_x(a, b), one of a and b 1/2; `rest` is 1 - x, given apart so that no digit of it is lost.
+/// Regularised incomplete beta function I_x(a, b), one of a and b 1/2; `rest` is 1 - x, given apart so that no digit of
+/// it is lost.
 double regular_beta(double a, double b, double x, double rest) {
   if (x <= 0) return 0;
   if (rest <= 0) return 1;
