@@ -34,7 +34,7 @@ class FusionLane final : public Method, public FusionMethod {
         plant_(knowledge.plant),
         periods_(periods_of(*plant_)),
         links_(knowledge.graph.links()),
-        bank_(kind_of(params), knowledge),
+        bank_(kind_of(params), params.boolean("printed_jacobian"), knowledge),
         tick_(bank_.begin()),
         protection_(knowledge.protection ? knowledge.protection->clone() : unprotected(knowledge)),
         centre_(knowledge, tick_),
@@ -160,6 +160,12 @@ const Registration<MethodMake> registration({
              {"Local filters: linearised at their own estimates, or of a linear plant with the gain of the tick, "
               "or with the one of the long run",
               "局部滤波器：在自身估计处线性化，或线性对象的时变增益，或其稳态增益"}},
+        {.name = "printed_jacobian",
+         .type = ParamType::boolean,
+         .fallback = false,
+         .meaning =
+             {"Sensors are linearised as their source prints it: (2-52) divides by the range where its square belongs",
+              "按原文线性化传感器：(2-52) 应除以距离平方而印作距离"}},
     }),
     [](const Params& params, const Knowledge& knowledge) -> std::unique_ptr<Method> {
       return std::make_unique<FusionLane>(params, knowledge);

@@ -34,8 +34,9 @@ StationaryFilters solved(const FusionModel& model, const std::vector<std::string
 
 }  // namespace
 
-LocalBank::LocalBank(LocalKind kind, const Knowledge& knowledge)
+LocalBank::LocalBank(LocalKind kind, bool printed, const Knowledge& knowledge)
     : kind_(kind),
+      printed_(printed),
       plant_(knowledge.plant),
       sensors_(knowledge.sensors),
       ids_(knowledge.nodes),
@@ -140,7 +141,7 @@ void LocalBank::solve(std::size_t i, PublicTick& tick, FaultReport& report) {
   const auto at = static_cast<Eigen::Index>(i) * n;
   if (kind_ == LocalKind::extended) {
     const auto mean = means_.col(static_cast<Eigen::Index>(i));
-    sensors_[i]->jacobian(mean, step.C);
+    printed_ ? sensors_[i]->jacobian_as_printed(mean, step.C) : sensors_[i]->jacobian(mean, step.C);
     if (std::string* text =
             sensors_[i]->limited(mean) ? report.fault(static_cast<int>(i), "singular_geometry") : nullptr)
       *text = fmt::format("sensor {}: the estimate stands where a bearing has no direction; its derivative was limited",

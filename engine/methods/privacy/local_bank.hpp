@@ -23,7 +23,8 @@ enum class LocalKind : std::uint8_t {
 class LocalBank {
  public:
   /// Throws InputError (pointer "/filter") where plant or sensors do not allow this kind or the stationary start.
-  LocalBank(LocalKind kind, const Knowledge& knowledge);
+  /// printed: sensors are linearised as their source prints it.
+  LocalBank(LocalKind kind, bool printed, const Knowledge& knowledge);
 
   /// Tick 0. Weights are I/L where all start alike.
   PublicTick begin();
@@ -54,6 +55,7 @@ class LocalBank {
   void keep_covariances(const Eigen::MatrixXd& P);
 
   LocalKind kind_;
+  bool printed_;
   std::shared_ptr<const Plant> plant_;
   std::vector<std::shared_ptr<const Sensor>> sensors_;
   std::vector<std::string> ids_;

@@ -145,13 +145,15 @@ const Eigen::VectorXd& TwoStepSender::send(const Eigen::VectorXd& xp, const Eige
     sum_ = window_ * xp;
     message_ = sum_;
   } else {
-    sum_ += xp - past_[slot];
+    oldest_ = past_[slot];
+    sum_ += xp - oldest_;
     past_[slot] = xp;
     if (t_ % kRecomputed == 0) {
       sum_.setZero();
       for (const Eigen::VectorXd& term : past_) sum_ += term;
     }
     message_ = sum_ + hidden;
+    if (printed_ && t_ > window_) message_ += oldest_;
   }
   ++t_;
   return message_;

@@ -55,15 +55,17 @@ double window_mean_trace(const FusionModel& model, const TwoStep& design, const 
 /// The messages s(t), t = 0, 1, 2 ..., stacked.
 class TwoStepSender {
  public:
-  explicit TwoStepSender(int window) : window_(window) {}
+  /// printed: as (4-12) prints it, with window + 1 terms for t > window; what (4-18) makes of that does not telescope.
+  explicit TwoStepSender(int window, bool printed = false) : window_(window), printed_(printed) {}
   /// xp: this tick's noisy estimates; hidden: Pi alpha, ignored at t = 0.
   const Eigen::VectorXd& send(const Eigen::VectorXd& xp, const Eigen::VectorXd& hidden);
 
  private:
   std::int64_t t_ = 0;
   int window_;
+  bool printed_;
   std::vector<Eigen::VectorXd> past_;  ///< xp, a ring of `window`
-  Eigen::VectorXd sum_, message_;
+  Eigen::VectorXd sum_, message_, oldest_;
 };
 
 /// x(t) = G (s(t) - s(t-1)) + x(max(t - window, 0)), x(0) = G s(0) / window: with Wc the legitimate user's (4-18), with

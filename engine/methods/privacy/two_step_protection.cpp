@@ -72,7 +72,8 @@ class TwoStepProtection final : public Protection {
         root_alpha_(std::sqrt(settings_.q_alpha)),
         xi_draws_(knowledge.seed, "protection.xi"),
         alpha_draws_(knowledge.seed, "protection.alpha"),
-        sender_(settings_.window),
+        printed_(params.text("sum") == "printed"),
+        sender_(settings_.window, printed_),
         noise_sender_(settings_.window),
         receiver_(design_.compensated.W, settings_.window),
         steady_(knowledge.stationary),
@@ -97,7 +98,7 @@ class TwoStepProtection final : public Protection {
     hidden_.noalias() = design_.Pi * alpha_;
     xp_ = messages.reshaped() + eta_;
     messages.reshaped() = sender_.send(xp_, hidden_);
-    meter_.add(noise_sender_.send(eta_, hidden_));
+    if (!printed_) meter_.add(noise_sender_.send(eta_, hidden_));
   }
 
   void decode(const PublicTick& tick, const MatrixXd& received, std::span<const char> lost, Decoded& decoded) override {
@@ -111,7 +112,7 @@ class TwoStepProtection final : public Protection {
       decoded.mean = receiver_.receive(message_);
     }
     decoded.fused = true;
-    if (gaps_)
+    if (gaps_ || astray(tick))
       decoded.P.resize(0, 0);
     else if (!tick.settled || decoded.P.size() == 0)
       decoded.P = design_.compensated.W * (tick.P + N_) * design_.compensated.W.transpose();
@@ -126,6 +127,7 @@ class TwoStepProtection final : public Protection {
   }
   double eavesdropper_trace(const PublicTick& tick, const std::string& variant) const override {
     const MatrixXd& W = tick.nominal.W;
+    if (variant != "zero" && astray(tick)) return std::numeric_limits<double>::quiet_NaN();
     if (variant == "differencing") {
       const double carried = static_cast<double>(noises_carried(tick.k, settings_.window)) * settings_.q_alpha;
       return (W * (tick.P + N_ + carried * design_.Pi)).cwiseProduct(W).sum();
@@ -150,8 +152,9 @@ class TwoStepProtection final : public Protection {
                 {"dp_ok", std::all_of(enough.begin(), enough.end(), [](bool one) { return one; })},
                 {"W", matrix_json(design_.nominal.W)},
                 {"Wc", matrix_json(design_.compensated.W)},
-                {"views", meter_.design(knowledge_.nodes)},
                 {"views_design_mu", 1 / design_.gamma}};
+    if (printed_) return design;  // views and releases are of sums of tq terms
+    design["views"] = meter_.design(knowledge_.nodes);
     for (const LossView& view : meter_.views()) {
       const auto sensor = static_cast<std::size_t>(view.output);
       if (view.name == "single")
@@ -164,6 +167,9 @@ class TwoStepProtection final : public Protection {
   std::vector<std::string> warnings() const override;
 
  private:
+  /// The sums are those that do not telescope: no covariance is known.
+  bool astray(const PublicTick& tick) const { return printed_ && tick.k > settings_.window; }
+
   Knowledge knowledge_;
   FusionModel model_;
   TwoStepSettings settings_;
@@ -174,6 +180,7 @@ class TwoStepProtection final : public Protection {
   double window_mean_ = std::numeric_limits<double>::quiet_NaN();  ///< trace, in the stationary law
   double zero_ = std::numeric_limits<double>::quiet_NaN();
   Draws xi_draws_, alpha_draws_;
+  bool printed_;
   TwoStepSender sender_, noise_sender_;
   TwoStepReceiver receiver_;
   bool steady_;  ///< every tick so far was in the filters' stationary law
@@ -200,6 +207,10 @@ std::vector<std::string> TwoStepProtection::warnings() const {
   if (design_.leak < kNoLeak * design_.nominal.P.trace())
     warnings.emplace_back(
         "leak is 0: the nominal weights let none of the null-space noise through, and no eavesdropper diverges");
+  if (printed_)
+    warnings.emplace_back(
+        "the sums have tq + 1 terms, as (4-12) prints them: the printed decoder (4-18) does not telescope and the user "
+        "diverges");
   if (gaps_)
     warnings.emplace_back(
         "a message was lost: the user's estimate goes on from its prediction, and as the decoder recurses on what it "
@@ -231,6 +242,12 @@ const Registration<ProtectionMake> registration({
          .maximum = 100,
          .symbol = "t_q",
          .meaning = {"Terms of a sum; with 1 nothing diverges", "移动窗长度；为 1 时窃听者不发散"}},
+        {.name = "sum",
+         .type = ParamType::text,
+         .fallback = "corrected",
+         .choices = {"corrected", "printed"},
+         .meaning = {"Terms of a sum after the first tq: tq, or tq + 1 as (4-12) prints it",
+                     "前 tq 步之后的求和项数：tq，或如 (4-12) 所印 tq + 1"}},
         {.name = "q_alpha",
          .fallback = 0.01,
          .minimum = 0,

@@ -91,6 +91,39 @@ TEST(PrivacyTables, NonlinearRobotHasTheErrorsOfTheSpecification) {
   EXPECT_NEAR(mean["eve.fusing.square"], 660, 60);
 }
 
+// What (2-52) and (4-12) do as they are printed.
+TEST(PrivacyTables, ThePrintedDerivativeMakesTheFusedErrorSeventeenTimesLarger) {
+  const Json printed = {{"params", {{"printed_jacobian", true}}}};
+  const Json patch = {{"lanes", {{"unprotected", printed}, {"contamination", printed}}}};
+  const int count = 60;
+  double optimal = 0, user = 0;
+  for (int seed = 1; seed <= count; ++seed) {
+    const Told004 told(privacy("robot-nonlinear", patch), static_cast<std::uint64_t>(seed));
+    for (int k = 11; k <= 100; ++k) {
+      optimal += told.at("lane.contamination.optimal.square", k) / (90. * count);
+      user += told.at("lane.contamination.fused.square", k) / (90. * count);
+    }
+  }
+  EXPECT_GT(optimal, .5);
+  EXPECT_LT(optimal, 1.1);
+  EXPECT_GT(user, 10) << "useless";
+}
+
+TEST(PrivacyTables, ThePrintedSumsDoNotTelescope) {
+  const Json patch = {{"lanes", {{"two_step", {{"protection", {{"params", {{"sum", "printed"}}}}}}}}}};
+  const int count = 300;
+  std::map<int, double> mean;
+  for (int seed = 1; seed <= count; ++seed) {
+    const Told004 told(privacy("engine", patch), static_cast<std::uint64_t>(seed));
+    for (const int k : {5, 6, 200}) mean[k] += told.at("lane.two_step.fused.square", k) / count;
+    EXPECT_TRUE(std::isfinite(told.at("lane.two_step.fused.trace", 5)));
+    EXPECT_TRUE(std::isnan(told.at("lane.two_step.fused.trace", 6)));
+  }
+  EXPECT_NEAR(mean[5], .0127, .003);
+  EXPECT_NEAR(mean[6], .27, .09);
+  EXPECT_NEAR(mean[200], .675, .2);
+}
+
 Json channel(const char* kind, double power) {
   return {{"lanes",
            {{"contamination", nullptr},
