@@ -38,7 +38,7 @@ class NormalisedSquare {
   double operator()(const Eigen::Ref<const Eigen::VectorXd>& r, const Eigen::Ref<const Eigen::MatrixXd>& S);
 
  private:
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::LLT<Eigen::MatrixXd> factor_{Eigen::MatrixXd::Identity(1, 1)};  ///< one that never was made must not be copied
   Eigen::VectorXd whitened_;
 };
 

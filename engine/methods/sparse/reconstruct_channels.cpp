@@ -22,7 +22,7 @@ class ChannelReconstructor final : public Reconstructor {
     for (int size = 1; size <= largest_; ++size) {
       const Eigen::Index entries = size * shape.window;
       fits_.push_back({Eigen::MatrixXd(entries, entries), Eigen::VectorXd(entries), Eigen::VectorXd(entries),
-                       Eigen::LDLT<Eigen::MatrixXd>(entries)});
+                       Eigen::LDLT<Eigen::MatrixXd>(Eigen::MatrixXd::Identity(entries, entries))});
     }
   }
 
