@@ -5,6 +5,7 @@ import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
 import { openPage, refused } from './support/browser.mjs';
 import { button } from './support/live.mjs';
+import { counted, said } from './support/said.mjs';
 import { call, finishedRun, runUntil, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 
@@ -49,9 +50,9 @@ describe('compare', () => {
     const query = `ids=${ids.join(',')}&signals=lane.consensus.*.error&abs=0.5`;
     const answer = await call(server, 'GET', `/compare?${query}`);
     await view.goto(`/compare?${query}`);
-    await until('a chart a signal', async () => (await charts(page).count()) === 8);
+    await counted(charts(page), 8);
     const row = page.getByRole('row', { name: /lanes\.consensus\.params\.tau/ });
-    assert.match(await row.innerText(), /0\.02/);
+    await said(row, /0\.02/);
     for (const verdict of answer.verdicts.filter((one) => one.signal === 'lane.consensus.1.error')) {
       const text = verdict.holds ? `${verdict.run}: within` : `${verdict.run}: ${(100 * verdict.inside).toPrecision(3)} % within, leaves at k ${verdict.first}`;
       await chip(page, verdict.signal, text).waitFor();
@@ -59,7 +60,7 @@ describe('compare', () => {
     const pairs = answer.paired.find((one) => one.metric?.lane === 'consensus' && one.metric.name === 'rmse_position' && one.metric.node === null);
     assert.equal(pairs.n, 2);
     const metric = page.getByRole('row', { name: /^consensus rmse_position( |$)/ }).first();
-    assert.match(await metric.innerText(), /n 2/);
+    await said(metric, /n 2/);
     await page.getByRole('textbox', { name: 'Absolute tolerance' }).fill('1e6');
     await button(page, 'Compare').click();
     await chip(page, 'lane.consensus.1.error', `${ids[1]}: within`).waitFor();
@@ -83,7 +84,7 @@ describe('compare', () => {
     await until('the cursor is in the address', async () => new URL(page.url()).searchParams.get('k') === '29');
     await page.reload();
     await charts(page).first().waitFor();
-    assert.equal(await charts(page).first().getAttribute('aria-valuenow'), '29', 'the address holds everything');
+    await until('the address holds everything', async () => (await charts(page).first().getAttribute('aria-valuenow')) === '29');
     await view.close();
   });
 

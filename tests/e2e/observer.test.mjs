@@ -5,6 +5,7 @@ import { checkAxe } from './support/axe.mjs';
 import { openPage } from './support/browser.mjs';
 import { button, csvOf, openRange, query } from './support/live.mjs';
 import { ring } from './support/ring.mjs';
+import { counted, labelled, number, said } from './support/said.mjs';
 import { call, finishedRun, runUntil, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 import { everyTick, panel } from './support/sparse.mjs';
@@ -58,7 +59,7 @@ describe('the observer family', () => {
         assert.ok(Math.abs(Number(cells[i]) - error) <= 1e-3 * Math.abs(error) + 2e-6, `k ${k}, ${name}: ${cells[i]} for ${error}`);
       });
     }
-    assert.equal(await panel(view.page, 'State errors').getByRole('application').count(), 2);
+    await counted(panel(view.page, 'State errors').getByRole('application'), 2);
     await panel(view.page, 'State errors').getByRole('button', { name: '± log' }).click();
     await until('the address has the scale', () => query(view.page, 'scale') === 'symlog');
     await view.close();
@@ -72,7 +73,7 @@ describe('the observer family', () => {
     const place = panel(page, 'Attack and fault');
     await place.getByRole('combobox', { name: 'subsystem' }).selectOption('2');
     await until('the address has the subsystem', () => query(page, 'node') === '2');
-    assert.equal(await place.getByRole('application').count(), 4);
+    await counted(place.getByRole('application'), 4);
     const lanes = pair.world.lanes.map(({ id }) => id);
     const names = [...lanes.map((lane) => `lane.${lane}.2.attack.w1`), 'actuator.2.w1.injected'];
     const { of } = await everyTick(server, pair.id, names, last);
@@ -116,16 +117,14 @@ describe('the observer family', () => {
 
   test('of the printed gains the page says what this run shows: certified, and they miss the attacks', async () => {
     const view = await open(pair);
-    const said = panel(view.page, 'Methods compared');
+    const place = panel(view.page, 'Methods compared');
     const record = pair.design.intermediate_printed;
     assert.ok(record.holds && record.max_real_pole < 0);
-    await said.getByText('The gains printed in the paper (intermediate printed) are stable').waitFor();
-    const text = await said.getByText('are stable, their slowest pole').innerText();
-    near(/pole at (\S+),/.exec(text)[1], record.max_real_pole);
-    await said.getByText('They do not estimate the attacks all the same.').waitFor();
-    const numbers = await said.getByText('They do not estimate the attacks all the same.').innerText();
-    near(/subsystem 1: (\S+) of an attack/.exec(numbers)[1], metricOf(pair, 'intermediate_printed', '1', 'rms_attack_error'));
-    await said.getByText('the certificate bounds the error of the state').waitFor();
+    await place.getByText('The gains printed in the paper (intermediate printed) are stable').waitFor();
+    near((await said(place.getByText('are stable, their slowest pole'), new RegExp(`pole at ${number},`)))[1], record.max_real_pole);
+    const missed = place.getByText('They do not estimate the attacks all the same.');
+    near((await said(missed, new RegExp(`subsystem 1: ${number} of an attack`)))[1], metricOf(pair, 'intermediate_printed', '1', 'rms_attack_error'));
+    await place.getByText('the certificate bounds the error of the state').waitFor();
     await view.close();
   });
 
@@ -138,13 +137,14 @@ describe('the observer family', () => {
       const run = areas[name];
       const view = await open(run);
       const { page } = view;
-      const said = panel(page, 'Methods compared');
-      await said.getByText(condition).waitFor();
-      await said.getByText(sentence).waitFor();
-      near(/subsystem 1: (\S+) of an attack/.exec(await said.getByText(sentence).innerText())[1], metricOf(run, 'matched_uio', '1', 'rms_attack_error'));
-      const label = await panel(page, 'Subsystems').getByRole('img').getAttribute('aria-label');
-      assert.equal(label.split('matching condition holds').length - 1, run.design.matched_uio.matched.filter(Boolean).length);
-      assert.equal((await said.getByRole('link', { name: 'case 2 with area 2 attacked' }).getAttribute('href')).startsWith('/scenarios/observer-areas?patch='), true);
+      const place = panel(page, 'Methods compared');
+      await place.getByText(condition).waitFor();
+      await place.getByText(sentence).waitFor();
+      near((await said(place.getByText(sentence), new RegExp(`subsystem 1: ${number} of an attack`)))[1], metricOf(run, 'matched_uio', '1', 'rms_attack_error'));
+      const picture = panel(page, 'Subsystems').getByRole('img');
+      const holding = run.design.matched_uio.matched.filter(Boolean).length;
+      await until(`the condition holds in ${holding}`, async () => (await picture.getAttribute('aria-label')).split('matching condition holds').length - 1 === holding);
+      assert.equal((await place.getByRole('link', { name: 'case 2 with area 2 attacked' }).getAttribute('href')).startsWith('/scenarios/observer-areas?patch='), true);
       await view.close();
     });
   }
@@ -152,12 +152,11 @@ describe('the observer family', () => {
   test('of figure 8 the page compares lanes of the same bounds', async () => {
     const single = await finishedRun(server, { scenario: 'observer-single', patch: { time: { steps: 4000 } } });
     const view = await open(single);
-    const said = panel(view.page, 'Methods compared');
+    const place = panel(view.page, 'Methods compared');
     for (const preset of ['fast', 'ref']) {
       const [mine, theirs] = [`intermediate_${preset}`, `classical_${preset}`].map((lane) => metricOf(single, lane, single.world.nodes[0].id, 'rms_attack_error'));
-      const sentence = said.getByText(`the RMS error of intermediate ${preset} is`);
-      await sentence.waitFor();
-      assert.match(await sentence.innerText(), new RegExp(`${Math.round(100 * Math.abs(1 - mine / theirs))} % ${mine < theirs ? 'lower' : 'higher'}`));
+      const sentence = place.getByText(`the RMS error of intermediate ${preset} is`);
+      await said(sentence, new RegExp(`${Math.round(100 * Math.abs(1 - mine / theirs))} % ${mine < theirs ? 'lower' : 'higher'}`));
     }
     await view.close();
   });
@@ -178,8 +177,8 @@ describe('the observer family', () => {
     const card = panel(page, 'Design');
     const record = pair.design.intermediate_fast;
     await card.getByText('The certificate holds').waitFor();
-    near(await card.locator('dl div', { hasText: 'objective' }).locator('dd').innerText(), record.objective);
-    near(await card.locator('dl div', { hasText: 'slowest pole' }).locator('dd').innerText(), record.max_real_pole);
+    near((await said(card.locator('dl div', { hasText: 'objective' }).locator('dd'), new RegExp(`^${number}`)))[1], record.objective);
+    near((await said(card.locator('dl div', { hasText: 'slowest pole' }).locator('dd'), new RegExp(`^${number}`)))[1], record.max_real_pole);
     await card.getByText(`Margins of ${record.margins.length} blocks`).click();
     assert.equal((await rowsOf(card)).length, record.margins.length);
     const address = await card.getByRole('link', { name: 'The problem in SDPA format' }).getAttribute('href');
@@ -214,10 +213,10 @@ describe('the observer family', () => {
     const run = await finishedRun(server, { scenario: ring(1) });
     const view = await open(run);
     const { page } = view;
-    assert.equal(await panel(page, 'State errors').getByRole('application').count(), 8);
-    const label = await panel(page, 'Subsystems').getByRole('img').getAttribute('aria-label');
-    assert.equal(label.split('driven by').length - 1, 8);
-    assert.match(label, /subsystem 1 with 4 states, 3 outputs, 1 attack and 1 fault channels; driven by 2, 8/);
+    await counted(panel(page, 'State errors').getByRole('application'), 8);
+    const picture = panel(page, 'Subsystems').getByRole('img');
+    await until('every box is drawn', async () => (await picture.getAttribute('aria-label')).split('driven by').length - 1 === 8);
+    await labelled(picture, /subsystem 1 with 4 states, 3 outputs, 1 attack and 1 fault channels; driven by 2, 8/);
     await page.locator('.design dl').first().waitFor();
     await view.close();
   });

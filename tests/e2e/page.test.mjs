@@ -7,6 +7,7 @@ import { gzipSync } from 'node:zlib';
 import { checkAxe, violations } from './support/axe.mjs';
 import { openPage, refused } from './support/browser.mjs';
 import { button, tickPast } from './support/live.mjs';
+import { said } from './support/said.mjs';
 import { call, dist, finishedRun, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 
@@ -82,7 +83,7 @@ describe('every page', () => {
     for (const path of pages()) {
       await page.goto(`${server.url}${path}`);
       await ready(page, path);
-      assert.match(await page.locator('main').innerText(), /\p{Script=Han}/u, path);
+      await said(page.locator('main'), /\p{Script=Han}/u);
     }
     await view.close();
   });

@@ -5,6 +5,7 @@ import { checkAxe } from './support/axe.mjs';
 import { openPage } from './support/browser.mjs';
 import { button, csvOf, query, tickPast } from './support/live.mjs';
 import { everyScenario, near, ranks, scenarios, tableOf, word } from './support/privacy.mjs';
+import { counted, number, said } from './support/said.mjs';
 import { call, runUntil, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 import { everyTick, panel } from './support/sparse.mjs';
@@ -22,7 +23,7 @@ describe('the privacy family', () => {
     test(`${scenario} has its panels, and every lane’s index in the strip`, async () => {
       const view = await open(scenario);
       for (const title of titles) await panel(view.page, title).waitFor();
-      assert.equal(await view.page.locator('.grid > .cell').count(), titles.length);
+      await counted(view.page.locator('.grid > .cell'), titles.length);
       const lanes = lanesOf(scenario);
       const measured = await lastOf(scenario, lanes.flatMap((lane) => [`lane.${lane}.ci`, `lane.${lane}.ci_mse`, `lane.${lane}.rank`]));
       for (const lane of lanes) {
@@ -131,13 +132,12 @@ describe('the privacy family', () => {
     const { design } = runs[scenario];
     const view = await open(scenario);
     const place = panel(view.page, 'Confidentiality');
-    const grows = await place.getByText('the variance of the differencing eavesdropper grows by').innerText();
-    near(/grows by (\S+) per step/.exec(grows)[1], design.two_step.slope);
-    near(/leaks (\S+)\)/.exec(grows)[1], design.two_step.leak);
+    const grows = place.getByText('the variance of the differencing eavesdropper grows by');
+    near((await said(grows, new RegExp(`grows by ${number} per step`)))[1], design.two_step.slope);
+    near((await said(grows, new RegExp(`leaks ${number}\\)`)))[1], design.two_step.leak);
     const ci = (await lastOf(scenario, ['lane.two_step.ci', 'lane.two_step.eve.window_mean.ci']));
-    near(/every step: (\S+) now/.exec(grows)[1], ci['lane.two_step.ci']);
-    const said = await until('the window mean is told', async () => ((text) => /index of \d/.test(text) && text)(await place.getByText('Theorem 4.2').innerText()));
-    near(/an index of (\S+), rank low/.exec(said)[1], ci['lane.two_step.eve.window_mean.ci']);
+    near((await said(grows, new RegExp(`every step: ${number} now`)))[1], ci['lane.two_step.ci']);
+    near((await said(place.getByText('Theorem 4.2'), new RegExp(`an index of ${number}, rank low`)))[1], ci['lane.two_step.eve.window_mean.ci']);
     assert.ok(ci['lane.two_step.eve.window_mean.ci'] < 1);
     // At another tick it is another index.
     await panel(view.page, 'Squared errors').getByRole('application').focus();
@@ -145,7 +145,7 @@ describe('the privacy family', () => {
     for (let i = 0; i < 3; i++) await view.page.keyboard.press('Shift+ArrowLeft');
     const { of } = await everyTick(server, runs[scenario].id, ['lane.two_step.ci'], 200);
     const k = Number(await until('the cursor is set', () => query(view.page, 'k')));
-    await until('the index is the cursor’s', async () => Math.abs(Number(/every step: (\S+) now/.exec(await place.getByText('grows by').innerText())[1]) - of['lane.two_step.ci'][k]) < 0.006 * of['lane.two_step.ci'][k]);
+    await until('the index is the cursor’s', async () => Math.abs(Number((await said(grows, new RegExp(`every step: ${number} now`)))[1]) - of['lane.two_step.ci'][k]) < 0.006 * of['lane.two_step.ci'][k]);
     await view.close();
   });
 

@@ -4,6 +4,7 @@ import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
 import { openPage } from './support/browser.mjs';
 import { button, openRange, query, tickPast } from './support/live.mjs';
+import { counted } from './support/said.mjs';
 import { call, finishedRun, runUntil, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 import { everyTick, panel } from './support/sparse.mjs';
@@ -106,9 +107,11 @@ describe('the replay family', () => {
     for (const { id } of run.world.lanes) {
       await chooseLane(page, id);
       await until(`the address has ${id}`, () => query(page, 'lane') === id);
-      const heading = await card(page).locator('.heading').innerText();
-      assert.equal(heading.startsWith('The paper’s method'), id === 'as_written' || id === 'eq29', `${id}: ${heading}`);
-      assert.equal(await card(page).getByText('The detector is blind').count(), id === 'as_written' ? 1 : 0, id);
+      await until(`the card is ${id}’s`, async () => {
+        const heading = await card(page).locator('.heading').innerText();
+        const blind = await card(page).getByText('The detector is blind').count();
+        return heading.startsWith('The paper’s method') === (id === 'as_written' || id === 'eq29') && blind === (id === 'as_written' ? 1 : 0);
+      });
     }
     await view.close();
     const chinese = await open('&lane=as_written', { lang: 'zh' });
@@ -123,8 +126,7 @@ describe('the replay family', () => {
     const rates = panel(page, 'Rates');
     const lanes = run.world.lanes.map(({ id }) => id);
     const rowsNow = () => rates.locator('tbody tr').evaluateAll((list) => list.map((row) => [...row.cells].map((cell) => cell.textContent.trim())));
-    const rows = await rowsNow();
-    assert.deepEqual(rows.map(([lane]) => lane), lanes.map(word));
+    const rows = await until('every lane has its rates', async () => ((all) => all.map(([lane]) => lane).join() === lanes.map(word).join() && all)(await rowsNow()));
     lanes.forEach((lane, i) => {
       const tpr = metricOf(run, lane, 'tpr');
       assert.equal(rows[i][1], tpr === null ? '–' : tpr.toFixed(3), lane);
@@ -172,7 +174,7 @@ describe('the replay family', () => {
     await panel(page, 'Errors and their density').getByRole('button', { name: 'all', exact: true }).click();
     await expect((k) => k >= 20);
     await panel(page, 'State and its set').getByRole('img', { name: /ellipsoid M/ }).waitFor();
-    assert.equal(await panel(page, 'State and its set').getByRole('application').count(), 2);
+    await counted(panel(page, 'State and its set').getByRole('application'), 2);
     await view.close();
   });
 

@@ -4,6 +4,7 @@ import { readFileSync } from 'node:fs';
 import { describe, test } from 'node:test';
 import { holdClock, openPage, refused } from './support/browser.mjs';
 import { button } from './support/live.mjs';
+import { said } from './support/said.mjs';
 import { call, finishedRun, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 
@@ -34,11 +35,11 @@ describe('runs', () => {
     await showing(page, [...ids].reverse());
     const row = page.locator(`tr[data-run="${ids[2]}"]`);
     await row.getByText('consensus.tau=0.02').waitFor();
-    assert.match(await row.innerText(), /finished/);
+    await said(row, /finished/);
     await page.locator(`tr[data-run="${ids[0]}"]`).getByText('none').waitFor();
     const { metrics } = await call(server, 'GET', `/runs/${ids[2]}`);
     const rmse = metrics.find((one) => one.lane === 'consensus' && one.node === null && one.name === 'rmse_position').value;
-    assert.ok((await row.innerText()).includes(rmse.toPrecision(3)), await row.innerText());
+    await until(`the row has ${rmse}`, async () => (await row.innerText()).includes(rmse.toPrecision(3)));
     await view.close();
   });
 
@@ -72,7 +73,7 @@ describe('runs', () => {
     await button(page, 'Search').click();
     const alert = page.locator('#run-query-problem');
     await alert.waitFor();
-    assert.match(await alert.innerText(), /Column \d+/);
+    await said(alert, /Column \d+/);
     await alert.locator('mark').waitFor();
     assert.equal(await page.getByRole('searchbox').getAttribute('aria-invalid'), 'true');
     await button(page, 'Clear').click();
@@ -122,8 +123,7 @@ describe('runs', () => {
     const path = await (await waiting).path();
     await page.locator('input[type=file]').setInputFiles({ name: 'bundle.json', mimeType: 'application/json', buffer: readFileSync(path) });
     const message = page.getByText(/Run \d+ was imported\./);
-    await message.waitFor();
-    const id = /\d+/.exec(await message.innerText())[0];
+    const [id] = await said(message, /\d+/);
     const [imported, original] = await Promise.all([call(server, 'GET', `/runs/${id}`), call(server, 'GET', `/runs/${ids[1]}`)]);
     assert.equal(imported.seed, original.seed);
     assert.deepEqual(imported.document, original.document);
@@ -139,8 +139,7 @@ describe('runs', () => {
     await page.getByRole('checkbox', { name: `Select run ${ids[0]}`, exact: true }).check();
     await button(page, 'Run again').click();
     const message = page.getByText(/Started: run \d+\./);
-    await message.waitFor();
-    const id = /\d+/.exec(await message.innerText())[0];
+    const [id] = await said(message, /\d+/);
     await page.locator(`tr[data-run="${id}"]`, { hasText: 'finished' }).waitFor();
     const metric = async (run) => (await call(server, 'GET', `/runs/${run}`)).metrics.find((one) => one.name === 'rmse_position' && one.node === null).value;
     assert.equal(await metric(id), await metric(ids[0]), 'the same seed gives the same figure');

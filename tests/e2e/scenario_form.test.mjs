@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { holdClock, openPage, refused } from './support/browser.mjs';
 import { button, tickPast } from './support/live.mjs';
+import { said } from './support/said.mjs';
 import { call, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 
@@ -21,7 +22,7 @@ describe('scenario form', () => {
     await page.getByRole('link', { name: 'Open consensus', exact: true }).click();
     await field(page, kTau).fill('0.02');
     await page.getByRole('checkbox', { name: 'steps: none' }).check();
-    assert.match(await page.locator('[data-command]').innerText(), /^vigil run consensus --seed 1 .*--set lanes\.consensus\.params\.tau=0\.02/);
+    await said(page.locator('[data-command]'), /^vigil run consensus --seed 1 .*--set lanes\.consensus\.params\.tau=0\.02/);
     await page.getByRole('textbox', { name: 'Seed' }).fill('42');
     await page.getByRole('textbox', { name: 'ticks per second' }).fill('20');
     await page.getByRole('textbox', { name: 'Tags' }).fill('e2e paper');
@@ -50,7 +51,7 @@ describe('scenario form', () => {
     assert.match(english, /default 0\.01/);
     await button(page, '中文: switch to Chinese').click();
     await until('the meaning is Chinese', async () => /\p{Script=Han}/u.test(await row.locator('.name').innerText()));
-    assert.match(await row.innerText(), /默认 0\.01/);
+    await said(row, /默认 0\.01/);
     await view.close();
   });
 

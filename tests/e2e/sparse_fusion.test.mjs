@@ -4,6 +4,7 @@ import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
 import { openPage } from './support/browser.mjs';
 import { tickPast } from './support/live.mjs';
+import { counted, said } from './support/said.mjs';
 import { call, finishedRun, runUntil, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 import { channels, everyTick, letters, panel, stations } from './support/sparse.mjs';
@@ -92,8 +93,9 @@ describe('the game and the reconstruction', () => {
     }
     const metric = (name, variant) => run.metrics.find((one) => one.lane === 'omp_game' && one.name === name && one.variant === variant).value;
     for (const type of ['I', 'II']) {
-      const text = await box.getByText(`Type ${type}: exact support found in `).innerText();
-      const [exact, hit, falses] = /in ([\d.]+) % of the windows; ([\d.]+) % of the entries found, ([\d.]+) false/.exec(text).slice(1).map(Number);
+      const found = await said(box.getByText(`Type ${type}: exact support found in `), /in ([\d.]+) % of the windows; ([\d.]+) % of the entries found, ([\d.]+) false/);
+      const text = found[0];
+      const [exact, hit, falses] = found.slice(1).map(Number);
       assert.ok(Math.abs(exact - 100 * metric('omp_exact', type)) <= 0.5, text);
       assert.ok(Math.abs(hit - 100 * metric('omp_hit_rate', type)) <= 0.5, text);
       assert.ok(Math.abs(falses - metric('omp_false_entries', type)) <= 0.01 * falses, text);
@@ -114,7 +116,7 @@ describe('the game and the reconstruction', () => {
     await verdict.getByText(`holds for q ≤ ${report.q_max}; this lane is set to q = ${report.q}`).waitFor();
     await verdict.getByText('comes from the game, not from the reconstruction').waitFor();
     await verdict.getByText('Station by station').click();
-    assert.equal(await verdict.getByRole('row').count(), 1 + stations.length);
+    await counted(verdict.getByRole('row'), 1 + stations.length);
     const chinese = await openPage(browser, server, { lang: 'zh' });
     await chinese.goto(`/live/${run.id}`);
     await chinese.page.getByText(`2qT = ${report.dimension[0]} 不超过 pT − n = ${report.dimension[1]}`).waitFor();

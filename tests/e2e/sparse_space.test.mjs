@@ -4,6 +4,7 @@ import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
 import { openPage } from './support/browser.mjs';
 import { button, cursorOf, openRange, query, tickPast } from './support/live.mjs';
+import { counted } from './support/said.mjs';
 import { call, finishedRun, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 import { everyTick, panel, stations } from './support/sparse.mjs';
@@ -99,7 +100,7 @@ describe('trajectories, errors and Table 2', () => {
     const { page } = view;
     const { of } = await everyTick(server, run.id, ['truth.px', 'truth.vx', 'lane.pred.1.estimate.px', ...stations.flatMap((id) => [`lane.l1.${id}.estimate.px`, `lane.l1.${id}.estimate.vx`])], last);
     const errors = panel(page, 'Errors per node');
-    assert.equal(await errors.getByRole('application').count(), 2);
+    await counted(errors.getByRole('application'), 2);
     await errors.getByRole('button', { name: 'linear', exact: true }).click();
     await until('the address has the scale', () => query(page, 'scale') === 'linear');
     await errors.getByRole('button', { name: 'Errors per node: Data as a table' }).click();

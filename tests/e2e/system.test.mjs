@@ -4,6 +4,7 @@ import { describe, test } from 'node:test';
 import { checkAxe } from './support/axe.mjs';
 import { openPage, refused } from './support/browser.mjs';
 import { button } from './support/live.mjs';
+import { counted, said } from './support/said.mjs';
 import { call, runUntil, until } from './support/server.mjs';
 import { withSite } from './support/site.mjs';
 
@@ -57,7 +58,7 @@ describe('a system of one’s own', () => {
     assert.equal(await button(page, 'Run it').isDisabled(), true);
     await button(page, 'Synthesise').click();
     await page.getByText('Every lane has gains whose certificate holds.').waitFor();
-    assert.equal(await page.locator('[data-design]').count(), 2);
+    await counted(page.locator('[data-design]'), 2);
     await page.getByText('The certificate holds').first().waitFor();
     await page.getByText('Save as your own').click();
     await page.getByRole('textbox', { name: 'Name (a-z, 0-9, -)' }).fill('two-of-mine');
@@ -87,8 +88,7 @@ describe('a system of one’s own', () => {
     const { page } = view;
     await button(page, 'Synthesise').click();
     const place = page.locator('[id="f/plant/params/subsystems/1/D"]');
-    await place.getByRole('alert').waitFor();
-    assert.match(await place.getByRole('alert').innerText(), /invariant zero/);
+    await said(place.getByRole('alert'), /invariant zero/);
     await until('the focus is in the matrix', () => page.evaluate(() => document.getElementById('f/plant/params/subsystems/1/D').contains(document.activeElement)));
     assert.equal(await button(page, 'Run it').isDisabled(), true);
     assert.equal((await call(server, 'GET', '/runs')).items.filter(({ state }) => state !== 'finished').length, 0);
@@ -106,7 +106,7 @@ describe('a system of one’s own', () => {
     await page.locator('[id="f/plant/params/subsystems/1/tau"]').fill('5000');
     await button(page, 'Synthesise').click();
     await page.getByRole('alert').filter({ hasText: 'No certified gains for intermediate ref' }).waitFor();
-    assert.match(await page.getByRole('alert').filter({ hasText: 'No certified gains' }).innerText(), /ref: \S+/);
+    await said(page.getByRole('alert').filter({ hasText: 'No certified gains' }), /ref: \S+/);
     assert.equal(await button(page, 'Run it').isDisabled(), true);
     await view.close();
   });
