@@ -16,6 +16,8 @@ std::string_view to_string(ParamType type) {
       return "boolean";
     case ParamType::text:
       return "text";
+    case ParamType::texts:
+      return "texts";
     case ParamType::vector:
       return "vector";
     case ParamType::matrix:
@@ -48,6 +50,8 @@ std::string base(const Param& param) {
       return "true or false";
     case ParamType::text:
       return param.choices.empty() ? "a text" : "one of " + listed(param.choices);
+    case ParamType::texts:
+      return "a list of texts";
     case ParamType::vector:
       return param.rows > 0 ? "a vector of " + std::to_string(param.rows) + " finite numbers"
                             : "a vector of finite numbers";

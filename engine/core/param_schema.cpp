@@ -46,12 +46,20 @@ Json text_schema(const Param& param) {
   return schema;
 }
 
+Json texts_schema(const Param& param) {
+  return {{"type", type_words(param, Json::array({"array"}))},
+          {"items", {{"type", "string"}, {"minLength", 1}}},
+          {"minItems", 1}};
+}
+
 Json typed_schema(const Param& param) {
   switch (param.type) {
     case ParamType::boolean:
       return {{"type", type_words(param, Json::array({"boolean"}))}};
     case ParamType::text:
       return text_schema(param);
+    case ParamType::texts:
+      return texts_schema(param);
     case ParamType::vector:
       return vector_schema(param);
     case ParamType::matrix:

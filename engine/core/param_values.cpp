@@ -54,6 +54,7 @@ double Params::real(std::string_view name) const { return at(name).get<double>()
 int Params::integer(std::string_view name) const { return at(name).get<int>(); }
 bool Params::boolean(std::string_view name) const { return at(name).get<bool>(); }
 std::string Params::text(std::string_view name) const { return at(name).get<std::string>(); }
+std::vector<std::string> Params::texts(std::string_view name) const { return at(name).get<std::vector<std::string>>(); }
 
 Eigen::VectorXd Params::vector(std::string_view name) const {
   const Json& value = at(name);

@@ -40,6 +40,14 @@ bool fits_text(const Param& param, const Json& value) {
   return false;
 }
 
+bool fits_texts(const Json& value) {
+  if (!value.is_array() || value.empty() || value.size() > kLongestVector) return false;
+  for (const auto& entry : value) {
+    if (!entry.is_string() || entry.get_ref<const std::string&>().empty()) return false;
+  }
+  return true;
+}
+
 bool fits_vector(const Param& param, const Json& value) {
   if (!value.is_array() || value.empty() || value.size() > kLongestVector) return false;
   if (param.rows > 0 && value.size() != static_cast<std::size_t>(param.rows)) return false;
@@ -75,6 +83,8 @@ bool fits(const Param& param, const Json& value) {
       return value.is_boolean();
     case ParamType::text:
       return fits_text(param, value);
+    case ParamType::texts:
+      return fits_texts(value);
     case ParamType::vector:
       return fits_vector(param, value);
     case ParamType::matrix:

@@ -25,6 +25,7 @@ enum class ParamType {
   integer,
   boolean,
   text,    ///< one of `choices`
+  texts,   ///< a list of texts, none of them empty
   vector,  ///< [..], any length unless `rows` is set
   matrix,  ///< [[..],..], a diagonal [..], or a number times the identity; kept as given
   object,  ///< a document of its own, read and checked by whoever declared it
@@ -86,6 +87,7 @@ class Params {
   int integer(std::string_view name) const;
   bool boolean(std::string_view name) const;
   std::string text(std::string_view name) const;
+  std::vector<std::string> texts(std::string_view name) const;
   Eigen::VectorXd vector(std::string_view name) const;
   /// A square matrix of size n from [[..]], a diagonal or a number. Throws InputError (pointer "") when the sizes do
   /// not fit.

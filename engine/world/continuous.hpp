@@ -37,6 +37,8 @@ class ContinuousPlant : public Plant {
   /// y: outputs, node after node. Allocates nothing.
   virtual void output(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
                       Eigen::Ref<Eigen::VectorXd> y) const = 0;
+  /// Of the slope, by states and known inputs; what is not linear is left out.
+  virtual LinearModel linear_part() const = 0;
   virtual double fastest() const = 0;  ///< largest modulus of its poles, 1/s
   /// Throws InputError under /nodes where these are not the nodes that the plant is made of.
   virtual void check_nodes(const std::vector<std::string>& nodes,

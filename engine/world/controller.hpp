@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/core/params.hpp"
 #include "engine/core/registry.hpp"
@@ -19,13 +21,11 @@ class Controller {
   virtual void input(std::int64_t k, const double* estimate, Eigen::Ref<Eigen::VectorXd> u) const = 0;
   /// Constants for the page and for tests: gains, poles.
   virtual Json design() const { return Json::object(); }
+  /// Sentences about it that whoever starts a run must know.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 /// x+ = A x + B u, read off a plant that is linear.
-struct LinearModel {
-  Eigen::MatrixXd A;  ///< states x states
-  Eigen::MatrixXd B;  ///< states x inputs
-};
 LinearModel linear_model(const Plant& plant);
 
 /// Throws InputError (pointers relative to the params) where there is no such controller for the plant.

@@ -27,6 +27,12 @@ struct ErrorGroup {
 
 class ContinuousPlant;
 
+/// x+ = A x + B u, or x' = A x + B u in continuous time.
+struct LinearModel {
+  Eigen::MatrixXd A;  ///< states x states
+  Eigen::MatrixXd B;  ///< states x inputs
+};
+
 /// x(k) = f(x(k-1), u(k)) + w, w ~ N(0, Q). Immutable and shared.
 class Plant {
  public:

@@ -84,6 +84,16 @@ void InterconnectedPlant::output(const Eigen::Ref<const Eigen::VectorXd>& x, con
   y.noalias() += output_v_ * v;
 }
 
+LinearModel InterconnectedPlant::linear_part() const {
+  LinearModel model{slope_x_, Eigen::MatrixXd(states(), inputs())};
+  int column = 0;
+  for (const DrivePorts& ports : ports_) {
+    model.B.middleCols(column, ports.u) = slope_v_.middleCols(ports.first, ports.u);
+    column += ports.u;
+  }
+  return model;
+}
+
 void InterconnectedPlant::advance(const Eigen::Ref<const Eigen::VectorXd>& x,
                                   const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> next) const {
   Eigen::VectorXd v = Eigen::VectorXd::Zero(drives()), state = x;

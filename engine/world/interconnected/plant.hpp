@@ -34,6 +34,7 @@ class InterconnectedPlant final : public ContinuousPlant {
              Eigen::Ref<Eigen::VectorXd> dx) const override;
   void output(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
               Eigen::Ref<Eigen::VectorXd> y) const override;
+  LinearModel linear_part() const override;
   double fastest() const override { return fastest_; }
   void check_nodes(const std::vector<std::string>& nodes,
                    const std::vector<std::shared_ptr<const Sensor>>& sensors) const override;
