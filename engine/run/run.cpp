@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "engine/run/state.hpp"
+#include "engine/run/system_words.hpp"
 
 namespace vigil {
 
-Run::Run(const Scenario& scenario, RunOptions options)
-    : state_(std::make_unique<State>(scenario, std::move(options))) {}
+Run::Run(const Scenario& scenario, RunOptions options) : state_(std::make_unique<State>(scenario, std::move(options))) {
+  std::vector<std::string> more = world_warnings(state_->world);
+  state_->warnings.insert(state_->warnings.end(), more.begin(), more.end());
+}
 Run::Run(const Run& other) : state_(std::make_unique<State>(*other.state_)) {}
 Run::Run(Run&& other) noexcept = default;
 Run& Run::operator=(Run other) noexcept {
@@ -37,8 +40,7 @@ void Run::step(Sink& sink) {
 /// Estimates and lanes computed elsewhere start from the first row of a trace, which one that grows had not at first.
 void Run::begin_anew() {
   State& now = *state_;
-  state_ = std::make_unique<State>(
-      now.scenario, RunOptions{now.seed, std::move(now.trace), std::move(now.pending), std::move(now.designs)});
+  *this = Run(now.scenario, RunOptions{now.seed, std::move(now.trace), std::move(now.pending), std::move(now.designs)});
 }
 
 bool Run::done() const {

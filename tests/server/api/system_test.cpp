@@ -80,10 +80,12 @@ class EveryRoute : public SystemTest {
 
   std::string body(const std::string& method, const std::string& path) const {
     if (path.ends_with("/traces")) return "k,t,input.x\n0,0,\n1,1,2\n";
+    if (path.ends_with("/traces/map")) return R"({"csv":"a\n1\n","mapping":{"columns":{"input.x":"a"}}})";
     if (path.ends_with("/import")) return bundle_;
     if (path.ends_with("/fork")) return R"({"k":2})";
     if (path.ends_with("/attacks")) return R"({"type":"dos","on":["link:1-2"]})";
-    if (path.ends_with("/runs") || path.ends_with("/designs")) return R"({"scenario":"consensus"})";
+    if (path.ends_with("/runs") || path.ends_with("/designs") || path.ends_with("/systems/check"))
+      return R"({"scenario":"consensus"})";
     if (method == "put") return document_;
     if (method == "patch") return R"({"note":"x"})";
     if (path.find("/ingest/") != std::string::npos) return R"({"k":0,"values":{}})";
