@@ -175,12 +175,17 @@ export interface ServerInfo {
   auth: boolean;
 }
 
+/** Whether a run's readings are pushed in. */
+export function isIngest(input: unknown): boolean {
+  return input === 'ingest' || (typeof input === 'object' && input !== null && 'ingest' in input);
+}
+
 export interface NewRun {
   scenario: string | Record<string, unknown>;
   patch?: Record<string, unknown>;
   seed?: number;
   pace?: Pace;
-  input?: 'simulate' | 'ingest' | { trace: string };
+  input?: 'simulate' | 'ingest' | { trace: string } | { ingest: { deadline?: number; columns?: string[] } };
   tags?: string[];
   note?: string;
 }
@@ -190,5 +195,6 @@ export interface NewAttack {
   on: string[];
   from?: number;
   to?: number | null;
+  schedule?: Record<string, unknown>;
   params: Record<string, unknown>;
 }

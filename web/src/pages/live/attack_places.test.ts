@@ -1,7 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import type { RunDetail } from '../../api/types';
+import type { AttackKind } from './hands/kinds';
 import { placesOf, setByHand, typesAt, usualKind, usualType } from './attack_places';
 
+const acting = (id: string, ...actsOn: AttackKind['actsOn']): AttackKind => ({ id, title: { en: id, zh: id }, actsOn, parameters: [] });
+const known = [acting('bias', 'link', 'actuator', 'sensor'), acting('dos', 'link'), acting('dos_fdi', 'link'), acting('radar_fdi', 'sensor'), acting('replay', 'sensor'), acting('waveform', 'actuator')];
 const types = ['bias', 'dos', 'dos_fdi', 'radar_fdi', 'replay', 'of_the_future'];
 const run = (adversary: Record<string, unknown>): RunDetail => ({ document: { adversary } }) as unknown as RunDetail;
 const both = { links: [{ id: '1-2', from: '1', to: '2', state: null }], nodes: [{ id: '1', position: null, state: 'sensor.1.state' }, { id: '2', position: null, state: null }] };
@@ -20,13 +23,13 @@ describe('places of an attack by hand', () => {
     expect(usualKind(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), areas)).toBe('actuator');
     expect(usualKind(run({}), areas)).toBe('actuator');
     expect(usualKind(run({ r: { type: 'bias', on: ['sensor:1'] } }), areas)).toBe('sensor');
-    expect(typesAt(['bias', 'dos', 'waveform'], 'actuator')).toEqual(['bias', 'waveform']);
+    expect(typesAt(['bias', 'dos', 'waveform'], 'actuator', known)).toEqual(['bias', 'waveform']);
     expect(usualType(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), ['bias', 'waveform'], 'actuator')).toBe('bias');
   });
 
   it('take the attacks that act there, and those that nobody knows', () => {
-    expect(typesAt(types, 'link')).toEqual(['bias', 'dos', 'dos_fdi', 'of_the_future']);
-    expect(typesAt(types, 'sensor')).toEqual(['bias', 'radar_fdi', 'replay', 'of_the_future']);
+    expect(typesAt(types, 'link', known)).toEqual(['bias', 'dos', 'dos_fdi', 'of_the_future']);
+    expect(typesAt(types, 'sensor', known)).toEqual(['bias', 'radar_fdi', 'replay', 'of_the_future']);
   });
 
   it('ask for no schedule that the dialog asks for already', () => {

@@ -1,5 +1,6 @@
 /// Where an attack that is started by hand can act, and which attacks act there.
 import type { RunDetail } from '../../api/types';
+import type { AttackKind } from './hands/kinds';
 import type { RunModel } from './model';
 
 export const placeKinds = ['link', 'actuator', 'sensor'] as const;
@@ -7,8 +8,6 @@ export type PlaceKind = (typeof placeKinds)[number];
 
 type Places = Pick<RunModel, 'links' | 'nodes'>;
 
-/** Attacks that act on one kind of place only. The server has the last word: it refuses with the reason. */
-const only: Readonly<Record<string, PlaceKind>> = { dos: 'link', dos_fdi: 'link', eavesdrop: 'link', radar_fdi: 'sensor', replay: 'sensor', waveform: 'actuator' };
 const usual: Readonly<Record<PlaceKind, string>> = { link: 'dos_fdi', sensor: 'replay', actuator: 'bias' };
 
 /** The words on the button. */
@@ -21,8 +20,9 @@ export function setByHand(type: string, parameter: string): boolean {
   return !schedules[type]?.includes(parameter);
 }
 
-export function typesAt(types: readonly string[], kind: PlaceKind): string[] {
-  return types.filter((type) => (only[type] ?? kind) === kind);
+/** Of the types of a schema those that act on such places; one that the registry does not list may act anywhere. */
+export function typesAt(types: readonly string[], kind: PlaceKind, known: readonly AttackKind[]): string[] {
+  return types.filter((type) => known.find(({ id }) => id === type)?.actsOn.includes(kind) ?? true);
 }
 
 export function placesOf(model: Places | null, kind: PlaceKind): string[] {
@@ -44,11 +44,10 @@ export function usualKind(run: Pick<RunDetail, 'document'> | null, model: Places
   return placeKinds.find((kind) => placesOf(model, kind).length) ?? 'link';
 }
 
-/** The attack that the scenario makes on such places itself, else the usual one. */
+/** Of the types that act on such places the one that the scenario makes there itself, else the usual one. */
 export function usualType(run: Pick<RunDetail, 'document'> | null, types: readonly string[], kind: PlaceKind): string {
-  const known = typesAt(types, kind);
-  const own = Object.values((run?.document?.adversary ?? {}) as Attacks).find((attack) => actsOn(attack, kind) && known.includes(String(attack?.type)));
+  const own = Object.values((run?.document?.adversary ?? {}) as Attacks).find((attack) => actsOn(attack, kind) && types.includes(String(attack?.type)));
   // Pieces of time are a scenario's: by hand a push that lasts is meant. Who only listens in the scenario listens by hand, too.
   const wanted = kind === 'sensor' || own?.type === 'eavesdrop' ? String(own?.type ?? usual[kind]) : usual[kind];
-  return known.includes(wanted) ? wanted : (known[0] ?? '');
+  return types.includes(wanted) ? wanted : (types[0] ?? '');
 }

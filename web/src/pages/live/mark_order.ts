@@ -30,6 +30,12 @@ export function mergeMarks(a: readonly Mark[], b: readonly Mark[]): Mark[] {
   return spare > 0 ? all.filter((mark) => (mark.type !== 'alarm' && mark.type !== 'fault') || spare-- <= 0) : all;
 }
 
+/** The tick from which on no alarm is missing, given a list that mergeMarks made. */
+export function heldFrom(marks: readonly Mark[]): number {
+  const restless = marks.filter((mark) => mark.type === 'alarm' || mark.type === 'fault');
+  return restless.length < most ? 0 : restless[0]!.k + 1;
+}
+
 /** Attacks that began and did not end yet, by id. */
 export function activeAttacks(marks: readonly Mark[]): Mark[] {
   const active = new Map<string, Mark>();

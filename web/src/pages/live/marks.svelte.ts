@@ -1,7 +1,7 @@
 /// The marks of a run, in order of their ticks: those of the log and those that come in.
 import { api } from '../../api/client';
 import type { Mark } from '../../api/types';
-import { activeAttacks, mergeMarks } from './mark_order';
+import { activeAttacks, heldFrom, mergeMarks } from './mark_order';
 
 const batchMs = 200;
 /** Marks are read so many at a time, and so often: a restless detector makes thousands. */
@@ -11,6 +11,8 @@ const mostPages = 5;
 export class MarkList {
   all = $state.raw<Mark[]>([]);
   active = $derived(activeAttacks(this.all));
+  /** The tick from which on no alarm is missing here. */
+  held = $derived(heldFrom(this.all));
   private waiting: Mark[] = [];
   private timer: ReturnType<typeof setTimeout> | null = null;
 

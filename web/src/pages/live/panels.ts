@@ -1,6 +1,6 @@
 /// Which panels a run shows, in which order, and how much room each takes. A panel joins the page by one line here.
 import type { Component } from 'svelte';
-import type { RunDetail } from '../../api/types';
+import { isIngest, type RunDetail } from '../../api/types';
 import BoundPanel from './BoundPanel.svelte';
 import DensityPanel from './density/DensityPanel.svelte';
 import DetectorPanel from './detector/DetectorPanel.svelte';
@@ -14,6 +14,7 @@ import ComponentErrorsPanel from './component_errors/ComponentErrorsPanel.svelte
 import ErrorPanel from './ErrorPanel.svelte';
 import EventsPanel from './EventsPanel.svelte';
 import FeasiblePanel from './FeasiblePanel.svelte';
+import { targetsOf } from './hands/hands.svelte';
 import type { RunModel } from './model';
 import { recordOf } from './observer/record';
 import { hasSubsystems } from './observer/subsystems';
@@ -55,9 +56,14 @@ const detects = (run: RunDetail, model: RunModel): boolean => aboutDetectors(run
 const subsystems = (_: RunDetail, model: RunModel): boolean => hasSubsystems(model);
 const designed = (run: RunDetail, model: RunModel): boolean => hasSubsystems(model) || Object.keys(run.design ?? {}).some((lane) => recordOf(run, lane) !== null);
 const centred = (_: RunDetail, model: RunModel): boolean => hasCentre(model);
+const touched = (model: RunModel): boolean => targetsOf(model).length > 0;
+const onPlane = (run: RunDetail, model: RunModel): boolean => consensus(run) || (!!model.plane && !run.view.space && !hasCentre(model));
+/** No other panel draws its network so that one could take a link or a node. */
+const needsNetwork = (run: RunDetail, model: RunModel): boolean => touched(model) && !onPlane(run, model) && !hasSubsystems(model) && !hasMessages(run, model);
 const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
 
 export const panels: readonly PanelEntry[] = [
+  { name: 'readings', load: () => import('./ingest/ReadingsPanel.svelte'), wide: [12, 1], middle: [12, 1], narrow: 420, applies: (run) => isIngest(run.input) },
   { name: 'tracks', load: () => import('./privacy/TracksPanel.svelte'), wide: [5, 1], middle: [12, 1], narrow: 400, applies: centred, sized: sizeIn('tracks') },
   { name: 'squares', load: () => import('./privacy/SquaresPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 420, applies: centred, sized: sizeIn('squares') },
   { name: 'confidentiality', load: () => import('./privacy/ConfidentialityPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 560, applies: centred },
@@ -74,7 +80,7 @@ export const panels: readonly PanelEntry[] = [
   { name: 'whatif', component: WhatIfPanel, wide: [5, 1], middle: [6, 1], narrow: 280, applies: detects },
   { name: 'profile', component: ProfilePanel, wide: [5, 1], middle: [6, 1], narrow: 330, applies: (run) => aboutDetectors(run) },
   { name: 'rates', component: RatesPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: detects },
-  { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: (run, model) => consensus(run) || (!!model.plane && !run.view.space && !hasCentre(model)) },
+  { name: 'plane', component: PlanePanel, wide: [5, 2], middle: [6, 1], narrow: 330, applies: onPlane },
   { name: 'errors', component: ErrorPanel, wide: [7, 1], middle: [6, 1], narrow: 260, applies: (run, model) => consensus(run) || (!run.view.errors && !aboutDetectors(run) && !hasSubsystems(model) && !hasCentre(model) && anyLane(model, (lane) => lane.rmse || lane.error.size)) },
   { name: 'raster', component: RasterPanel, wide: [7, 1], middle: [6, 1], narrow: 340, applies: (run) => consensus(run) },
   { name: 'feasible', component: FeasiblePanel, wide: [4, 1], middle: [6, 1], narrow: 240, applies: (run, model) => consensus(run) || anyLane(model, (lane) => lane.feasible28.size) },
@@ -91,6 +97,8 @@ export const panels: readonly PanelEntry[] = [
   { name: 'schedule', component: SchedulePanel, wide: [5, 1], middle: [6, 1], narrow: 220, applies: (run, model) => sensorsAttacked(run) && !aboutDetectors(run) && stationsOf(model).length > 0 },
   { name: 'verdict', component: VerdictPanel, wide: [8, 1], middle: [12, 1], narrow: 420, applies: (run, model) => reportOf(run, model, null) !== null },
   { name: 'events', component: EventsPanel, wide: [4, 1], middle: [6, 1], narrow: 220, applies: () => true, sized: sizeIn('events') },
+  { name: 'network', load: () => import('./hands/NetworkPanel.svelte'), wide: [4, 1], middle: [6, 1], narrow: 300, applies: needsNetwork },
+  { name: 'attacks', load: () => import('./hands/AttacksPanel.svelte'), wide: [12, 1], middle: [12, 1], narrow: 260, applies: (_, model) => touched(model), sized: (run, model) => (needsNetwork(run, model) ? [8, 1] : null) },
 ];
 
 const others = new WeakMap<PanelEntry, PanelEntry>();

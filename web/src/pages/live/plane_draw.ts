@@ -68,12 +68,16 @@ export function planeBox(scene: PlaneScene, before: PlaneBox | null): PlaneBox |
   return inside && !wasteful ? before : box;
 }
 
-export function drawPlane(context: CanvasRenderingContext2D, width: number, height: number, scene: PlaneScene, box: PlaneBox): void {
+/** From the plane's unit to px. */
+export function planeMap(box: PlaneBox, width: number, height: number): { X: Map1; Y: Map1; scale: number; cx: number; cy: number } {
   const scale = Math.min((width - 44) / (box.x1 - box.x0), (height - 24) / (box.y1 - box.y0));
   const cx = (box.x0 + box.x1) / 2;
   const cy = (box.y0 + box.y1) / 2;
-  const X = (x: number): number => 36 + (width - 44) / 2 + (x - cx) * scale;
-  const Y = (y: number): number => 4 + (height - 24) / 2 - (y - cy) * scale;
+  return { X: (x) => 36 + (width - 44) / 2 + (x - cx) * scale, Y: (y) => 4 + (height - 24) / 2 - (y - cy) * scale, scale, cx, cy };
+}
+
+export function drawPlane(context: CanvasRenderingContext2D, width: number, height: number, scene: PlaneScene, box: PlaneBox): void {
+  const { X, Y, scale, cx, cy } = planeMap(box, width, height);
   grid(context, width, height, X, Y, scale, cx, cy);
   context.save();
   context.beginPath();

@@ -8,6 +8,7 @@ import { Source } from '../../data/source';
 import type { Frame, Hello, StreamEvent, StreamState } from '../../stream/events';
 import { listen } from '../../stream/hub';
 import { makeModel, laneOf, type RunModel } from './model';
+import { Hands } from './hands/hands.svelte';
 import { MarkList } from './marks.svelte';
 import type { LiveView } from './view.svelte';
 
@@ -36,6 +37,7 @@ export class Session {
   stream = $state.raw<StreamState>({ at: 'connecting' });
   status = $state.raw<Status>({ head: 0, t: 0, rate: 0, gaps: 0, drawMs: 0, stale: false });
   readonly marks = new MarkList();
+  readonly hands = new Hands();
   source: Source | null = null;
 
   private overview: Ring | null = null;

@@ -56,8 +56,6 @@ export const en = {
   attack_all_actuators: 'all actuators',
   attack_needs_actuators: 'Choose at least one actuator.',
   attack_all_sensors: 'all sensors',
-  attack_for: 'Duration in ticks',
-  attack_endless: 'until stopped',
   attack_start: 'Start the attack',
   attack_active: 'Active attacks',
   attack_none: 'None.',

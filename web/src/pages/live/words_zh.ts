@@ -57,8 +57,6 @@ export const zh: Translation<typeof en> = {
   attack_all_actuators: '全部执行器',
   attack_needs_actuators: '请至少选择一个执行器。',
   attack_all_sensors: '全部传感器',
-  attack_for: '持续步数',
-  attack_endless: '直到停止',
   attack_start: '开始攻击',
   attack_active: '进行中的攻击',
   attack_none: '没有。',

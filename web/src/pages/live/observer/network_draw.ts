@@ -22,6 +22,9 @@ interface Place {
 
 const half = { width: 39, height: 17 };
 
+/** px from a box's centre within which a hand takes it. */
+export const boxRadius = 26;
+
 /** px by which the inner boxes of a row stand out, so that arrows along the row pass them by. */
 const bow = 21;
 
