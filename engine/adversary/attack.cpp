@@ -53,12 +53,39 @@ void SensorEffects::resize(const std::vector<int>& channels) {
   state.assign(channels.size(), SensorState::clean);
   playback.clear();
   for (const int size : channels) playback.emplace_back(static_cast<std::size_t>(size));
+  shaping.assign(channels.size(), {});
+  lost.clear();
+  for (const int size : channels) lost.emplace_back(static_cast<std::size_t>(size), 0);
 }
 
 void SensorEffects::clear() {
   for (Eigen::VectorXd& value : injected) value.setZero();
   std::fill(state.begin(), state.end(), SensorState::clean);
   for (auto& channels : playback) std::fill(channels.begin(), channels.end(), Playback{});
+  std::fill(shaping.begin(), shaping.end(), Shaping{});
+  for (auto& channels : lost) std::fill(channels.begin(), channels.end(), 0);
+}
+
+void SensorEffects::jam(const SensorPlace& place) {
+  const auto node = static_cast<std::size_t>(place.node);
+  state[node] = SensorState::dos;
+  for (std::size_t c = 0; c < lost[node].size(); ++c) {
+    if (place.channel < 0 || place.channel == static_cast<int>(c)) lost[node][c] = 1;
+  }
+}
+
+void SensorEffects::move(int node, const Eigen::VectorXd& by, double share) {
+  Shaping& mine = shaping[static_cast<std::size_t>(node)];
+  mine.moved = &by;
+  mine.share = share;
+  state[static_cast<std::size_t>(node)] = SensorState::fdi;
+}
+
+void SensorEffects::aim(int node, const Eigen::VectorXd& direction, double budget) {
+  Shaping& mine = shaping[static_cast<std::size_t>(node)];
+  mine.direction = &direction;
+  mine.budget = budget;
+  state[static_cast<std::size_t>(node)] = SensorState::fdi;
 }
 
 void SensorEffects::add(const SensorPlace& place, const Eigen::Ref<const Eigen::VectorXd>& added, SensorState as) {
@@ -89,6 +116,20 @@ void SensorEffects::play(const SensorPlace& place, const Playback& record) {
 bool SensorEffects::plays(int node) const {
   const auto& channels = playback[static_cast<std::size_t>(node)];
   return std::any_of(channels.begin(), channels.end(), [](const Playback& one) { return one.source >= 0; });
+}
+
+void ActuatorEffects::clear() {
+  pushes.clear();
+  stops.clear();
+}
+
+void Attack::reach(std::int64_t k, std::span<const ActuatorPlace> places, ActuatorEffects& effects) const {
+  for (const ActuatorPlace& place : places) effects.pushes.push_back({this, place, k});
+}
+
+const char* word(ChannelKind kind) {
+  static constexpr const char* kWords[] = {"link", "sensor", "actuator"};
+  return kWords[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace vigil

@@ -26,8 +26,6 @@ class Bias final : public Attack {
     }
   }
 
-  bool acts_on(ChannelKind /*kind*/) const override { return true; }
-
   void tamper(std::int64_t k, std::span<const SensorPlace> places, SensorEffects& effects) const override {
     for (const SensorPlace& place : places) {
       // Sensors draw apart from links: indices from 2^16 on, 64 a node.
@@ -37,7 +35,10 @@ class Bias final : public Attack {
   }
 
   /// On an actuator it pushes all the time: a probability a step means nothing in continuous time.
-  void push(double /*t*/, double /*branch*/, Eigen::Ref<Eigen::VectorXd> w) const override { w += vector_; }
+  void push(const ActuatorEffects::Push& /*at*/, double /*t*/, double /*branch*/,
+            Eigen::Ref<Eigen::VectorXd> w) const override {
+    w += vector_;
+  }
 
   LinkRates rates() const override { return {0, probability_, vector_.norm()}; }
 
@@ -75,6 +76,7 @@ const Registration<AttackMake> registration({
     [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
       return std::make_unique<Bias>(params, context);
     },
+    {.acts_on = {ChannelKind::link, ChannelKind::sensor, ChannelKind::actuator}},
 });
 
 }  // namespace

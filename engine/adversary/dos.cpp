@@ -1,4 +1,4 @@
-/// Plain jamming: a channel carries nothing, each step with a probability.
+/// Plain jamming: a channel carries nothing, each step with a probability. A reading is missing then, a command none.
 #include "engine/adversary/attack.hpp"
 #include "engine/random/draws.hpp"
 
@@ -18,9 +18,25 @@ class Dos final : public Attack {
     }
   }
 
+  void tamper(std::int64_t k, std::span<const SensorPlace> places, SensorEffects& effects) const override {
+    for (const SensorPlace& place : places) {
+      if (strikes(k, kSensors, place)) effects.jam(place);
+    }
+  }
+  void reach(std::int64_t k, std::span<const ActuatorPlace> places, ActuatorEffects& effects) const override {
+    for (const ActuatorPlace& place : places) {
+      if (strikes(k, kActuators, place)) effects.stops.push_back({place, false});
+    }
+  }
+
   LinkRates rates() const override { return {probability_, 0, 0}; }
 
  private:
+  static constexpr std::uint32_t kSensors = 0x10000, kActuators = 0x20000;  // they draw apart from links
+  bool strikes(std::int64_t k, std::uint32_t first, const SensorPlace& place) const {
+    return branch_.bernoulli(k, first + static_cast<std::uint32_t>(place.node * 64 + place.channel + 1), probability_);
+  }
+
   double probability_;
   Draws branch_;
 };
@@ -41,6 +57,7 @@ const Registration<AttackMake> registration({
     [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
       return std::make_unique<Dos>(params, context);
     },
+    {.acts_on = {ChannelKind::link, ChannelKind::sensor, ChannelKind::actuator}, .on_commands = true},
 });
 
 }  // namespace

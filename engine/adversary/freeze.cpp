@@ -11,7 +11,6 @@ class Freeze final : public Attack {
   explicit Freeze(const AttackContext& context) : held_(std::max<std::int64_t>(context.from - 1, 1)) {}
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Freeze>(*this); }
-  bool acts_on(ChannelKind kind) const override { return kind != ChannelKind::actuator; }
   std::int64_t start() const override { return held_ + 1; }
   bool active(std::int64_t k) const override { return k > held_; }
 
@@ -20,6 +19,9 @@ class Freeze final : public Attack {
   }
   void tamper(std::int64_t /*k*/, std::span<const SensorPlace> places, SensorEffects& effects) const override {
     for (const SensorPlace& place : places) effects.play(place, {held_, held_, held_});
+  }
+  void reach(std::int64_t /*k*/, std::span<const ActuatorPlace> places, ActuatorEffects& effects) const override {
+    for (const ActuatorPlace& place : places) effects.stops.push_back({place, true});
   }
   std::string remark() const override { return "what was sent at tick " + std::to_string(held_) + " is held"; }
 
@@ -35,6 +37,7 @@ const Registration<AttackMake> registration({
     [](const Params& /*params*/, const AttackContext& context) -> std::unique_ptr<Attack> {
       return std::make_unique<Freeze>(context);
     },
+    {.acts_on = {ChannelKind::link, ChannelKind::sensor, ChannelKind::actuator}, .on_commands = true},
 });
 
 }  // namespace

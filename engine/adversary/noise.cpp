@@ -1,12 +1,14 @@
 /// White Gaussian noise added to what a channel carries.
+#include <algorithm>
+
 #include "engine/adversary/attack.hpp"
 #include "engine/random/draws.hpp"
 
 namespace vigil {
 namespace {
 
-constexpr std::uint32_t kSensors = 0x100000;  // sensors draw apart from links
-constexpr std::uint32_t kRoom = 64;           // entries of one channel at most
+constexpr std::uint32_t kSensors = 0x100000, kActuators = 0x200000;  // they draw apart from links
+constexpr std::uint32_t kRoom = 64;                                  // entries of one channel at most
 
 class Noise final : public Attack {
  public:
@@ -17,11 +19,11 @@ class Noise final : public Attack {
         message_(context.message),
         readings_(context.readings) {
     for (const int size : context.readings) check_room(size);
+    for (const int size : context.actuators) check_room(size);
     if (context.on_links) check_room(context.message);
   }
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Noise>(*this); }
-  bool acts_on(ChannelKind kind) const override { return kind != ChannelKind::actuator; }
 
   void act(std::int64_t k, std::span<const int> links, LinkEffects& effects) const override {
     for (const int link : links) {
@@ -35,6 +37,13 @@ class Noise final : public Attack {
       draw(k, kSensors + static_cast<std::uint32_t>(places[p].node) * kRoom + static_cast<std::uint32_t>(first), size);
       effects.add(places[p], drawn_.head(size), SensorState::fdi);
     }
+  }
+  void push(const ActuatorEffects::Push& at, double /*t*/, double /*branch*/,
+            Eigen::Ref<Eigen::VectorXd> w) const override {
+    const auto first =
+        static_cast<std::uint32_t>(at.place.node) * kRoom + static_cast<std::uint32_t>(std::max(at.place.channel, 0));
+    draw(at.k, kActuators + first, static_cast<int>(w.size()));
+    w += drawn_.head(w.size());
   }
 
  private:
@@ -68,6 +77,7 @@ const Registration<AttackMake> registration({
     [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
       return std::make_unique<Noise>(params, context);
     },
+    {.acts_on = {ChannelKind::link, ChannelKind::sensor, ChannelKind::actuator}},
 });
 
 }  // namespace

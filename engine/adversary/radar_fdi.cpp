@@ -34,7 +34,6 @@ class RadarFdi final : public Attack {
   }
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<RadarFdi>(*this); }
-  bool acts_on(ChannelKind kind) const override { return kind == ChannelKind::sensor; }
 
   void tamper(std::int64_t k, std::span<const SensorPlace> places, SensorEffects& effects) const override {
     for (const SensorPlace& place : places) {
@@ -100,6 +99,7 @@ const Registration<AttackMake> registration({
     [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
       return std::make_unique<RadarFdi>(params, context);
     },
+    {.acts_on = {ChannelKind::sensor}},
 });
 
 }  // namespace

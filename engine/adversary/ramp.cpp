@@ -19,10 +19,10 @@ class Ramp final : public Attack {
                                       std::to_string(slope_.size()));
     if (context.on_links) check_size(context.message, "a message");
     for (const int size : context.readings) check_size(size, "what it acts on at a sensor");
+    for (const int size : context.actuators) check_size(size, "what it acts on at an actuator");
   }
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Ramp>(*this); }
-  bool acts_on(ChannelKind kind) const override { return kind != ChannelKind::actuator; }
 
   void act(std::int64_t k, std::span<const int> links, LinkEffects& effects) const override {
     grow(k);
@@ -31,6 +31,11 @@ class Ramp final : public Attack {
   void tamper(std::int64_t k, std::span<const SensorPlace> places, SensorEffects& effects) const override {
     grow(k);
     for (const SensorPlace& place : places) effects.add(place, value_, SensorState::fdi);
+  }
+  void push(const ActuatorEffects::Push& at, double /*t*/, double /*branch*/,
+            Eigen::Ref<Eigen::VectorXd> w) const override {
+    grow(at.k);
+    w += value_;
   }
 
  private:
@@ -73,6 +78,7 @@ const Registration<AttackMake> registration({
     [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
       return std::make_unique<Ramp>(params, context);
     },
+    {.acts_on = {ChannelKind::link, ChannelKind::sensor, ChannelKind::actuator}},
 });
 
 }  // namespace

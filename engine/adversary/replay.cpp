@@ -57,7 +57,6 @@ class Replay final : public Attack {
   Replay(const Params& params, const AttackContext& context) : schedule_(read(params, context)) {}
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Replay>(*this); }
-  bool acts_on(ChannelKind kind) const override { return kind != ChannelKind::actuator; }
   std::int64_t start() const override { return schedule_.start; }
   bool active(std::int64_t k) const override { return k >= schedule_.start && (!schedule_.end || k <= *schedule_.end); }
 
@@ -114,6 +113,7 @@ const Registration<AttackMake> registration({
     [](const Params& params, const AttackContext& context) -> std::unique_ptr<Attack> {
       return std::make_unique<Replay>(params, context);
     },
+    {.acts_on = {ChannelKind::link, ChannelKind::sensor}},
 });
 
 }  // namespace

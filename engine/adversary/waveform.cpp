@@ -11,8 +11,8 @@ class Waveform final : public Attack {
   explicit Waveform(const Params& params) : gain_(params.real("gain")), signal_(observer::read_pieces(params)) {}
 
   std::unique_ptr<Attack> clone() const override { return std::make_unique<Waveform>(*this); }
-  bool acts_on(ChannelKind kind) const override { return kind == ChannelKind::actuator; }
-  void push(double t, double branch, Eigen::Ref<Eigen::VectorXd> w) const override {
+  void push(const ActuatorEffects::Push& /*at*/, double t, double branch,
+            Eigen::Ref<Eigen::VectorXd> w) const override {
     w.array() += gain_ * signal_.value(t, branch);
   }
 
@@ -31,6 +31,7 @@ const Registration<AttackMake> registration({
     [](const Params& params, const AttackContext& /*context*/) -> std::unique_ptr<Attack> {
       return std::make_unique<Waveform>(params);
     },
+    {.acts_on = {ChannelKind::actuator}},
 });
 
 }  // namespace

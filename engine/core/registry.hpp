@@ -11,6 +11,10 @@
 
 namespace vigil {
 
+/// What an entry of one kind declares beyond its parameters: specialised where there is something.
+template <class Make>
+struct Traits {};
+
 /// One entry: Make is the type of the function that makes the object.
 template <class Make>
 struct Entry {
@@ -19,6 +23,7 @@ struct Entry {
   std::string source;  ///< "seed 000, sections 2 and 3"
   ParamTable params;
   Make make;
+  Traits<Make> traits = {};
 };
 
 /// All entries of one kind, in the order of their ids (registration order depends on the linker, so it is not used).

@@ -9,11 +9,11 @@ AttackScore::AttackScore(const std::vector<int>& channels, int window, int outpu
   }
 }
 
-void AttackScore::note(const SensorEffects& truth) {
+void AttackScore::note(const std::vector<Eigen::VectorXd>& injected, const std::vector<SensorState>& states) {
   const auto slot = static_cast<Eigen::Index>(ticks_ % window_);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    nodes_[i].injected.col(slot) = truth.injected[i];
-    nodes_[i].states[static_cast<std::size_t>(slot)] = truth.state[i];
+    nodes_[i].injected.col(slot) = injected[i];
+    nodes_[i].states[static_cast<std::size_t>(slot)] = states[i];
   }
   ++ticks_;
 }

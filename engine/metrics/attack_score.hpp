@@ -21,7 +21,7 @@ class AttackScore {
   AttackScore(const std::vector<int>& channels, int window, int outputs);
 
   /// What really happened to every sensor in the tick that is being judged. Call it first.
-  void note(const SensorEffects& truth);
+  void note(const std::vector<Eigen::VectorXd>& injected, const std::vector<SensorState>& states);
   /// `output` stands at the node of the same index.
   void judge(int output, const Reconstruction& found, int choice);
 

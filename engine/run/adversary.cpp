@@ -29,8 +29,15 @@ std::optional<std::int64_t> read_tick(const Json& entry, const char* key, const 
 
 Adversary::Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes,
                      const std::vector<std::vector<std::string>>& channels,
-                     const std::vector<std::vector<std::string>>& actuators, std::uint64_t seed, int message)
-    : graph_(graph), nodes_(nodes), channels_(channels), actuators_(actuators), seed_(seed), message_(message) {
+                     const std::vector<std::vector<std::string>>& actuators, std::uint64_t seed, int message,
+                     bool continuous)
+    : graph_(graph),
+      nodes_(nodes),
+      channels_(channels),
+      actuators_(actuators),
+      seed_(seed),
+      message_(message),
+      continuous_(continuous) {
   for (const auto& [id, entry] : document.items()) add(id, entry, false, "/adversary/" + id, 1);
 }
 
@@ -40,7 +47,8 @@ Adversary::Adversary(const Adversary& other)
       channels_(other.channels_),
       actuators_(other.actuators_),
       seed_(other.seed_),
-      message_(other.message_) {
+      message_(other.message_),
+      continuous_(other.continuous_) {
   for (const Entry& e : other.entries_) {
     entries_.push_back({e.id, e.type, e.attack->clone(), e.params, e.links, e.sensors, e.actuators, e.link_name,
                         e.node_name, e.from, e.start, e.to, e.every, e.length, e.budget, e.enabled, e.by_hand,
@@ -115,6 +123,9 @@ std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, c
                         .seed = seed_,
                         .message = message_,
                         .on_links = !entry.links.empty(),
+                        .single_channels = std::any_of(entry.sensors.begin(), entry.sensors.end(),
+                                                       [](const SensorPlace& place) { return place.channel >= 0; }),
+                        .continuous = continuous_,
                         .from = entry.from,
                         .to = entry.to,
                         .by_hand = entry.by_hand};
@@ -126,22 +137,32 @@ std::unique_ptr<Attack> Adversary::make(const Entry& entry, const Json& given, c
   };
   context.readings = sizes(entry.sensors, channels_);
   context.actuators = sizes(entry.actuators, actuators_);
-  auto attack = under(pointer + "/params", [&] { return kind->make(Params(complete), context); });
-  // link:* of a network without any link names links all the same
-  const bool names_links = !entry.links.empty() || (entry.sensors.empty() && entry.actuators.empty());
-  const auto need = [&](bool named, ChannelKind channel, const char* what) {
-    if (!named || attack->acts_on(channel)) return;
+  check_kinds(entry, kind->traits, pointer + "/on");
+  return under(pointer + "/params", [&] { return kind->make(Params(complete), context); });
+}
+
+void Adversary::check_kinds(const Entry& entry, const Traits<AttackMake>& traits, const std::string& pointer) const {
+  const auto acts = [&](ChannelKind kind) {
+    return std::find(traits.acts_on.begin(), traits.acts_on.end(), kind) != traits.acts_on.end();
+  };
+  const auto need = [&](bool named, ChannelKind kind) {
+    if (!named || acts(kind)) return;
     std::vector<std::string> others;
-    if (attack->acts_on(ChannelKind::link)) others.emplace_back("link:* or link:FROM-TO");
-    if (attack->acts_on(ChannelKind::sensor)) others.emplace_back("sensor:NODE or sensor:NODE.CHANNEL");
-    if (attack->acts_on(ChannelKind::actuator)) others.emplace_back("actuator:NODE or actuator:NODE.CHANNEL");
-    throw InputError(pointer + "/on", fmt::format("\"{}\" does not act on {}", entry.type, what),
+    if (acts(ChannelKind::link)) others.emplace_back("link:* or link:FROM-TO");
+    if (acts(ChannelKind::sensor)) others.emplace_back("sensor:NODE or sensor:NODE.CHANNEL");
+    if (acts(ChannelKind::actuator)) others.emplace_back("actuator:NODE or actuator:NODE.CHANNEL");
+    throw InputError(pointer, fmt::format("\"{}\" does not act on {}s", entry.type, word(kind)),
                      fmt::format("{}", fmt::join(others, ", ")));
   };
-  need(names_links, ChannelKind::link, "links");
-  need(!entry.sensors.empty(), ChannelKind::sensor, "sensors");
-  need(!entry.actuators.empty(), ChannelKind::actuator, "actuators");
-  return attack;
+  // link:* of a network without any link names links all the same
+  need(!entry.links.empty() || (entry.sensors.empty() && entry.actuators.empty()), ChannelKind::link);
+  need(!entry.sensors.empty(), ChannelKind::sensor);
+  need(!entry.actuators.empty(), ChannelKind::actuator);
+  if (!entry.actuators.empty() && continuous_ && traits.on_commands)
+    throw InputError(pointer,
+                     fmt::format("\"{}\" stops commands, which a plant in continuous time does not get tick by "
+                                 "tick; its inputs are given signals",
+                                 entry.type));
 }
 
 void Adversary::add(const std::string& id, const Json& document, bool by_hand, const std::string& pointer,
@@ -212,7 +233,7 @@ void Adversary::act(std::int64_t k, LinkEffects& links, SensorEffects& sensors, 
     if (!acts) continue;
     if (!entry.links.empty()) entry.attack->act(k, entry.links, links);
     if (!entry.sensors.empty()) entry.attack->tamper(k, entry.sensors, sensors);
-    for (const ActuatorPlace& place : entry.actuators) actuators.pushes.push_back({entry.attack.get(), place});
+    if (!entry.actuators.empty()) entry.attack->reach(k, entry.actuators, actuators);
   }
 }
 

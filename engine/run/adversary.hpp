@@ -20,10 +20,10 @@ class Adversary {
   Adversary() = default;
   /// `document`: the scenario's "adversary". Links are those of `graph`, the graph the run starts with: a draw's index
   /// is the link's place there, so that a later change of the graph moves no draw. `channels`: the names of each node's
-  /// sensor channels; `actuators`: of each node's actuators, none where it has none.
+  /// sensor channels; `actuators`: of each node's actuators, none where it has none. `continuous`: the plant's time.
   Adversary(const Json& document, const Graph& graph, const std::vector<std::string>& nodes,
             const std::vector<std::vector<std::string>>& channels,
-            const std::vector<std::vector<std::string>>& actuators, std::uint64_t seed, int message);
+            const std::vector<std::vector<std::string>>& actuators, std::uint64_t seed, int message, bool continuous);
   Adversary(const Adversary& other);
   Adversary(Adversary&&) noexcept = default;
   Adversary& operator=(Adversary&&) noexcept = default;
@@ -66,6 +66,8 @@ class Adversary {
   int find_link(const std::string& from, const std::string& to) const;
   /// A sensor's or an actuator's channel, by the names that every node has of its kind.
   SensorPlace find_channel(const Place& place, const std::string& pointer) const;
+  /// Throws InputError at `pointer` where the attack does not act on channels of the entry's kinds.
+  void check_kinds(const Entry& entry, const Traits<AttackMake>& traits, const std::string& pointer) const;
   static bool scheduled(const Entry& entry, std::int64_t k);
   void mark_edge(std::int64_t k, const Entry& entry, Sink& sink) const;
   /// The attack itself, with the parameters of `entry`. Throws InputError under `pointer`.
@@ -78,6 +80,7 @@ class Adversary {
   std::vector<std::vector<std::string>> channels_, actuators_;
   std::uint64_t seed_ = 0;
   int message_ = 0;
+  bool continuous_ = false;
 };
 
 /// Runs `make` and puts `prefix` before the pointers of an InputError it throws.

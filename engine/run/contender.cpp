@@ -116,7 +116,7 @@ void Contender::sense(const Tick& tick, bool attacked, const SensorEffects& effe
     const auto node = static_cast<std::size_t>(i);
     method_->emit(i, course_.readings[node], course_.input, course_.sent[node]);
   }
-  channels_.carry(tick.k, course_.sent, effects, course_.received);
+  channels_.carry(tick.k, tick.world, effects, course_);
 }
 
 void Contender::exchange(const Tick& tick, bool attacked) {

@@ -1,6 +1,10 @@
 #include "engine/run/course.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
+
+#include "engine/linalg/small.hpp"
 
 namespace vigil {
 namespace {
@@ -12,6 +16,27 @@ void World::draw(std::int64_t k) {
   for (std::size_t i = 0; i < sensors.size(); ++i) sensor_noise[i].draw(k, sensing[i]);
 }
 
+void World::command(const Eigen::VectorXd& u, Eigen::VectorXd& applied) const {
+  const auto entries = [&](const ActuatorPlace& place) {
+    return std::pair<Eigen::Index, Eigen::Index>(std::max(place.channel, 0), place.channel < 0 ? u.size() : 1);
+  };
+  BoundedVector arrives = u;
+  for (const ActuatorEffects::Push& push : actuators.pushes) {
+    const auto [first, count] = entries(push.place);
+    const double t = static_cast<double>(push.k) * dt;
+    push.attack->push(push, t, t, arrives.segment(first, count));
+  }
+  for (const ActuatorEffects::Stop& stop : actuators.stops) {
+    const auto [first, count] = entries(stop.place);
+    if (stop.held) {
+      arrives.segment(first, count) = applied.segment(first, count);
+    } else {
+      arrives.segment(first, count).setZero();
+    }
+  }
+  applied = arrives;
+}
+
 Course::Course(const World& world)
     : truth(Eigen::VectorXd::Zero(world.plant->states())),
       input(Eigen::VectorXd::Constant(world.plant->inputs(), kMissing)),
@@ -21,6 +46,9 @@ Course::Course(const World& world)
   for (const auto& sensor : world.sensors) readings.emplace_back(Eigen::VectorXd::Constant(sensor->size(), kMissing));
   sent = readings;
   received = readings;
+  for (const auto& sensor : world.sensors) injected.emplace_back(Eigen::VectorXd::Zero(sensor->size()));
+  applied_ = Eigen::VectorXd::Zero(world.plant->inputs());
+  if (world.controller != nullptr) drives = applied_;
   if (const ContinuousPlant* plant = world.continuous()) {
     drives = Eigen::VectorXd::Zero(plant->drives());
     outputs_ = Eigen::VectorXd::Zero(plant->outputs());
@@ -40,7 +68,14 @@ void Course::advance(const World& world, std::int64_t k, bool attacked) {
     return;
   }
   input = upcoming;
-  world.plant->advance(truth, input, next_);
+  if (attacked && !world.actuators.idle()) {
+    world.command(input, applied_);
+    drives = applied_ - input;
+  } else {
+    applied_ = input;
+    drives.setZero();
+  }
+  world.plant->advance(truth, applied_, next_);
   truth = next_ + world.process;
 }
 

@@ -24,6 +24,7 @@ struct World {
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::shared_ptr<const Controller> controller;  ///< null: nothing drives the plant but a recorded input
   NoiseSource process_noise;
+  Eigen::MatrixXd process_covariance;  ///< of both its parts together, as an adversary's filter takes it
   std::vector<NoiseSource> sensor_noise;
 
   Eigen::VectorXd process;  ///< this tick's process noise
@@ -34,6 +35,9 @@ struct World {
   double dt = 1;              ///< s, a tick
   Drive drive;                ///< of a plant in continuous time
   ActuatorEffects actuators;  ///< this tick's
+  /// Discrete time: what becomes of the command u on its way to the actuators; `applied` has what reached them a tick
+  /// ago and gets what reaches them now. inputs: both of them. No allocation.
+  void command(const Eigen::VectorXd& u, Eigen::VectorXd& applied) const;
 };
 
 struct Course {
@@ -41,10 +45,13 @@ struct Course {
   Eigen::VectorXd input;     ///< what acted from the last tick to this one
   Eigen::VectorXd upcoming;  ///< what acts from this tick to the next
   Eigen::VectorXd past;      ///< the truth a tick ago; of continuous time only
-  Eigen::VectorXd drives;    ///< all that drives it at this tick, by the plant's ports; of continuous time only
-  Readings readings;         ///< as the sensors measure
-  Readings sent;             ///< as they leave the sensors, with what a sensor side adds
-  Readings received;         ///< as they arrive
+  /// All that drives it at this tick, by the plant's ports; in discrete time what the adversary added to a controller's
+  /// input, from the last tick to this one.
+  Eigen::VectorXd drives;
+  Readings readings;  ///< as the sensors measure
+  Readings sent;      ///< as they leave the sensors, with what a sensor side adds
+  Readings received;  ///< as they arrive
+  Readings injected;  ///< what the adversary added to them, after any playback
 
   Course() = default;
   explicit Course(const World& world);
@@ -58,6 +65,7 @@ struct Course {
   void note_inputs(const ContinuousPlant& plant);
 
   Eigen::VectorXd next_, outputs_;
+  Eigen::VectorXd applied_;  ///< the input that reached the plant; of discrete time only
   PlantFlow flow_;
 };
 

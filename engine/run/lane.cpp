@@ -4,6 +4,7 @@
 
 #include "engine/run/lane_scope.hpp"
 #include "engine/run/sensor_signals.hpp"
+#include "engine/run/setup.hpp"
 
 namespace vigil {
 namespace {
@@ -152,6 +153,9 @@ void Lane::declare_course(const World& world, const std::vector<std::string>& no
   course_slot_ = catalogue.size();
   for (const Component& c : world.plant->state()) scope.add(-1, "truth." + c.name, c.unit, SignalKind::scalar);
   for (const Component& c : world.plant->input()) scope.add(-1, "input." + c.name, c.unit, SignalKind::scalar);
+  if (ports_.empty()) {
+    for (const std::string& name : drive_names(world, nodes)) scope.add(-1, name, "", SignalKind::scalar);
+  }
   sensor_slot_ = declare_sensors("lane." + id() + ".", id(), nodes, world, catalogue);
 }
 
@@ -194,7 +198,7 @@ void Lane::tick(const Tick& tick) {
 /// Step 7, apart from the errors that are signals, too.
 void Lane::judge(const Tick& tick) {
   if (method().window() > 0) {
-    attack_score_.note(effects(tick));
+    attack_score_.note(contender_.course(tick.shared).injected, effects(tick).state);
     for (int o = 0; o < static_cast<int>(outputs_.size()); ++o)
       attack_score_.judge(o, method().reconstruction(o), method().choice(o));
   }
@@ -230,7 +234,9 @@ bool Lane::attacked(const Tick& tick, int output) const {
   const auto hit = [](SensorState state) { return state != SensorState::clean; };
   if (node ? hit(sensors.state[place]) : std::any_of(sensors.state.begin(), sensors.state.end(), hit)) return true;
   if (options_.spared) return false;
-  if (!ports_.empty() && !tick.world.actuators.pushes.empty()) return true;
+  const bool pushed =
+      ports_.empty() ? (contender_.course(tick.shared).drives.array().abs() > 0).any() : !tick.world.actuators.idle();
+  if (pushed) return true;
   if (method().message() == 0) return false;
   for (std::size_t l = 0; l < tick.graph.links().size(); ++l) {
     const bool here = !node || tick.graph.links()[l].to == output;

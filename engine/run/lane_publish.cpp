@@ -26,6 +26,7 @@ void Lane::publish_course(const Tick& tick, std::span<double> values) const {
   for (Eigen::Index c = 0; c < course.truth.size(); ++c) *at++ = course.truth[c];
   if (tick.k == 0) return;
   for (Eigen::Index c = 0; c < course.input.size(); ++c) *at++ = course.input[c];
+  for (Eigen::Index c = 0; ports_.empty() && c < course.drives.size(); ++c) *at++ = course.drives[c];
   publish_sensors(course, effects(tick), values.data() + sensor_slot_);
 }
 

@@ -42,17 +42,34 @@ double SensorChannels::play(std::int64_t k, const Playback& playback, Eigen::Ind
   return record.values[playback.source - playback.from];
 }
 
-void SensorChannels::carry(std::int64_t k, const Readings& sent, const SensorEffects& effects, Readings& arrived) {
+void SensorChannels::tamper(std::int64_t k, const SensorEffects& effects, std::size_t node, Eigen::VectorXd& arrived) {
+  for (Eigen::Index c = 0; c < arrived.size(); ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    const Playback& playback = effects.playback[node][channel];
+    if (playback.source >= 0) arrived[c] = play(k, playback, c, readings_[node]);
+    const double period = readings_[node].sensor->channels()[channel].period;
+    if (effects.injected[node][c] != 0) arrived[c] = wrap(arrived[c] + effects.injected[node][c], period);
+  }
+}
+
+void SensorChannels::carry(std::int64_t k, const World& world, const SensorEffects& effects, Course& course) {
   for (std::size_t i = 0; i < readings_.size(); ++i) {
-    remember(k, sent[i], readings_[i]);
-    arrived[i] = sent[i];
+    remember(k, course.sent[i], readings_[i]);
+    Eigen::VectorXd& arrived = course.received[i];
+    arrived = course.sent[i];
+    course.injected[i] = effects.injected[i];
     if (effects.state[i] == SensorState::clean) continue;
-    for (Eigen::Index c = 0; c < arrived[i].size(); ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      const Playback& playback = effects.playback[i][channel];
-      if (playback.source >= 0) arrived[i][c] = play(k, playback, c, readings_[i]);
-      const double period = readings_[i].sensor->channels()[channel].period;
-      if (effects.injected[i][c] != 0) arrived[i][c] = wrap(arrived[i][c] + effects.injected[i][c], period);
+    tamper(k, effects, i, arrived);
+    const Shaping& shaping = effects.shaping[i];
+    if (shaping.moved != nullptr || shaping.direction != nullptr) {
+      course.injected[i] -= arrived;
+      insider_.shape(k, world, course, static_cast<int>(i), shaping, arrived);
+      course.injected[i] += arrived;
+    }
+    for (std::size_t c = 0; c < effects.lost[i].size(); ++c) {
+      if (effects.lost[i][c] == 0) continue;
+      arrived[static_cast<Eigen::Index>(c)] = kMissing;
+      course.injected[i][static_cast<Eigen::Index>(c)] = 0;
     }
   }
 }

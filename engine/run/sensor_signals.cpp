@@ -31,7 +31,7 @@ void publish_sensors(const Course& course, const SensorEffects& effects, double*
     for (Eigen::Index c = 0; c < course.received[i].size(); ++c, at += kForms) {
       at[0] = course.received[i][c];
       if (course.sent[i][c] != course.received[i][c]) at[1] = course.sent[i][c];
-      at[2] = effects.injected[i][c];
+      at[2] = course.injected[i][c];
       const std::int64_t source = effects.playback[i][static_cast<std::size_t>(c)].source;
       if (source >= 0) at[3] = static_cast<double>(source);
     }

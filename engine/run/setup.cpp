@@ -70,9 +70,11 @@ Run::State::State(const Scenario& given, RunOptions options)
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       for (int c = 1; c <= plant->ports()[i].w; ++c) actuators[i].push_back(fmt::format("w{}", c));
     }
+  } else if (world.controller != nullptr) {
+    for (const Component& u : world.plant->input()) actuators.front().push_back(u.name);
   }
   adversary = Adversary(document.value("adversary", Json::object()), base, nodes, names, actuators, seed,
-                        world.plant->states());
+                        world.plant->states(), world.continuous() != nullptr);
   set_lanes(document);
   if (trace) set_recorded_lanes();
   declare_signals();
@@ -144,9 +146,10 @@ void Run::State::set_noise(const Json& document) {
   const int n = world.plant->states();
   const Law law = law_of(noise.value("law", "gauss"));
   const BoundedLaw bounded = bounded_law_of(noise.value("bounded", "uniform"));
-  world.process_noise = NoiseSource(
-      read_covariance(noise.at("Q"), n, "/noise/Q", Definiteness::semidefinite), law,
-      read_covariance(noise.value("Mw", Json(0)), n, "/noise/Mw", Definiteness::semidefinite), bounded, seed, "plant");
+  const Eigen::MatrixXd Q = read_covariance(noise.at("Q"), n, "/noise/Q", Definiteness::semidefinite);
+  const Eigen::MatrixXd Mw = read_covariance(noise.value("Mw", Json(0)), n, "/noise/Mw", Definiteness::semidefinite);
+  world.process_noise = NoiseSource(Q, law, Mw, bounded, seed, "plant");
+  world.process_covariance = Q + Mw / (static_cast<double>(n) + 2);
   world.process = Eigen::VectorXd::Zero(n);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Sensor& sensor = *world.sensors[i];
@@ -158,7 +161,12 @@ void Run::State::set_noise(const Json& document) {
 std::vector<std::string> drive_names(const World& world, const std::vector<std::string>& nodes) {
   std::vector<std::string> names;
   const ContinuousPlant* plant = world.continuous();
-  if (plant == nullptr) return names;
+  if (plant == nullptr) {
+    if (world.controller == nullptr) return names;
+    for (const Component& u : world.plant->input())
+      names.push_back(fmt::format("actuator.{}.{}.injected", nodes.front(), u.name));
+    return names;
+  }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const DrivePorts& ports = plant->ports()[i];
     names.insert(names.end(), static_cast<std::size_t>(ports.u), "");

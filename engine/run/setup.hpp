@@ -19,8 +19,9 @@ const Entry<Make>& entry_of(const std::string& type, const std::string& pointer)
   return *entry;
 }
 
-/// "actuator.<node>.w1.injected", "disturbance.<node>.d1", "fault.<node>.f1" by the plant's ports, "" for known inputs;
-/// empty where time goes in ticks.
+/// "actuator.<node>.w1.injected", "disturbance.<node>.d1", "fault.<node>.f1" by the plant's ports, "" for known inputs.
+/// Where time goes in ticks and a controller drives the plant, it stands at the first node and the plant's inputs are
+/// that node's actuators: "actuator.<node>.<input>.injected". Else empty.
 std::vector<std::string> drive_names(const World& world, const std::vector<std::string>& nodes);
 
 }  // namespace vigil

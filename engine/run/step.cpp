@@ -68,7 +68,7 @@ void Run::State::simulate(Sink& sink) {
   if (world.controller) world.controller->input(k, shared.truth.data(), shared.upcoming);
   shared.sense(world);
   shared.sent = shared.readings;
-  channels.carry(k, shared.sent, sensor_effects, shared.received);
+  channels.carry(k, world, sensor_effects, shared);
 }
 
 /// The same from a trace. Channels that it describes bypass the adversary; elsewhere the adversary acts.
@@ -76,7 +76,7 @@ void Run::State::replay(Sink& sink) {
   read_course(columns.shared, shared);
   adversary.act(k, effects, sensor_effects, world.actuators, sink);
   override_links();
-  channels.carry(k, shared.sent, sensor_effects, shared.received);
+  channels.carry(k, world, sensor_effects, shared);
   read_tampering(columns.shared, shared, sensor_effects);
   shared.readings = shared.sent;
   for (std::size_t l = 0; l < lanes.size(); ++l) {
@@ -124,6 +124,7 @@ void Run::State::read_tampering(const CourseColumns& from, Course& course, Senso
       course.received[i][c] = read(from.sensor[i][channel]);
       course.sent[i][c] = std::isfinite(honest) ? honest : course.received[i][c];
       tampering.injected[i][c] = std::isfinite(injected) ? injected : 0;
+      course.injected[i][c] = tampering.injected[i][c];
       added = added || tampering.injected[i][c] != 0;
       tampering.playback[i][channel] = {};
       if (source >= 0 && source < static_cast<double>(k)) {

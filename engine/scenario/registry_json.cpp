@@ -19,10 +19,19 @@ Json entry_json(const std::string& id, const Words& title, const std::string& so
 }
 
 template <class Make>
+void add_traits(const Traits<Make>& /*none*/, Json& /*entry*/) {}
+
+void add_traits(const Traits<AttackMake>& traits, Json& entry) {
+  entry["acts_on"] = Json::array();
+  for (const ChannelKind kind : traits.acts_on) entry["acts_on"].push_back(word(kind));
+}
+
+template <class Make>
 Json kind_json() {
   Json list = Json::array();
   for (const auto& entry : Registry<Make>::all()) {
     list.push_back(entry_json(entry.id, entry.title, entry.source, entry.params.to_json()));
+    add_traits(entry.traits, list.back());
   }
   return list;
 }

@@ -181,6 +181,7 @@ TEST(Attacks, AreValues) {
   for (const auto& entry : Registry<AttackMake>::all()) {
     Json params = Json::object();
     if (entry.id == "ramp") params["slope"] = {1, 0, 2};
+    if (entry.id == "coordinated") params["shift"] = {1, 0, 2};
     if (entry.id == "waveform") params["pieces"] = Json::array({Json::array({1, 0.5, 0, 0, 0, 0, 0})});
     const auto attack = make(entry.id, params);
     const auto copy = attack->clone();

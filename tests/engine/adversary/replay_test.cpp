@@ -146,7 +146,7 @@ TEST(Replay, NamesThePlaceThatIsNotThere) {
   Json patch = test::no_attack();
   patch["adversary"]["it"] = {{"type", "replay"}, {"on", {"actuator:1"}}};
   EXPECT_EQ(test::refusal(replay_scenario("replay-ubb", {"zeta1"}, patch)).problems().front().pointer,
-            "/adversary/it/on/0");
+            "/adversary/it/on");
   patch["adversary"]["it"]["on"] = {"sensor:1.y3"};
   EXPECT_EQ(test::refusal(replay_scenario("replay-ubb", {"zeta1"}, patch)).problems().front().pointer,
             "/adversary/it/on/0");

@@ -24,7 +24,7 @@ class Story {
   void tick(SensorState state, const Eigen::Vector3d& injected) {
     effects_.injected[0] = injected;
     effects_.state[0] = state;
-    score_.note(effects_);
+    score_.note(effects_.injected, effects_.state);
   }
   void judge(const Eigen::Matrix<double, kChannels * kWindow, 1>& E, int choice = -1, int output = 0) {
     score_.judge(output, {E.data(), kChannels, kWindow}, choice);

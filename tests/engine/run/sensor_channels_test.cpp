@@ -21,9 +21,11 @@ class Channels : public testing::Test {
     const auto sensor = Registry<SensorMake>::find("linear")->make(
         rig::completed<SensorMake>("linear", {{"C", {{1, 0}, {0, 1}}}}), *plant);
     sensors = {sensor, sensor};
+    world.plant = plant;
+    world.sensors = sensors;
+    world.process_covariance = 0.1 * Eigen::Matrix2d::Identity();
+    course = Course(world);
     effects.resize({2, 2});
-    sent = {Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)};
-    arrived = sent;
   }
 
   static double value(int node, std::int64_t k, int channel) {
@@ -37,17 +39,18 @@ class Channels : public testing::Test {
       ++k;
       effects.clear();
       act(k);
-      for (int i = 0; i < 2; ++i) sent[static_cast<std::size_t>(i)] = Eigen::Vector2d(value(i, k, 0), value(i, k, 1));
+      for (int i = 0; i < 2; ++i)
+        course.sent[static_cast<std::size_t>(i)] = Eigen::Vector2d(value(i, k, 0), value(i, k, 1));
       for (const auto& [tick, node, channel] : holes) {
-        if (tick == k) sent[static_cast<std::size_t>(node)][channel] = kMissing;
+        if (tick == k) course.sent[static_cast<std::size_t>(node)][channel] = kMissing;
       }
-      channels.carry(k, sent, effects, arrived);
+      channels.carry(k, world, effects, course);
     }
   }
   void pass(SensorChannels& channels, std::int64_t to) {
     pass(channels, to, [](std::int64_t) {});
   }
-  double got(int node, int channel) const { return arrived[static_cast<std::size_t>(node)][channel]; }
+  double got(int node, int channel) const { return course.received[static_cast<std::size_t>(node)][channel]; }
 
   struct Hole {
     std::int64_t tick;
@@ -56,7 +59,8 @@ class Channels : public testing::Test {
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::vector<Hole> holes;
   SensorEffects effects;
-  Readings sent, arrived;
+  World world;
+  Course course;
   std::int64_t k = -1;
 };
 
@@ -75,7 +79,7 @@ TEST_F(Channels, PlayARecordBackAtTheirNodeOnly) {
   EXPECT_EQ(got(0, 0), 200);
   EXPECT_EQ(got(1, 0), value(1, 4, 0));  // 3 + 9 % 4
   EXPECT_EQ(got(1, 1), value(1, 4, 1));
-  EXPECT_EQ(sent[1][0], 1200) << "the honest value stays";
+  EXPECT_EQ(course.sent[1][0], 1200) << "the honest value stays";
 }
 
 TEST_F(Channels, PlayOneChannelAndLeaveTheOther) {

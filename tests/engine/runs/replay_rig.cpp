@@ -24,7 +24,8 @@ double Told::at(std::int64_t k, const std::string& signal) const {
 }
 
 double Told::of(const std::string& lane, std::int64_t k, const std::string& what) const {
-  const bool own = what.starts_with("truth") || what.starts_with("input") || what.starts_with("sensor");
+  const bool own = what.starts_with("truth") || what.starts_with("input") || what.starts_with("sensor") ||
+                   what.starts_with("actuator");
   return at(k, "lane." + lane + (own ? "." : ".1.") + what);
 }
 

@@ -52,6 +52,21 @@ void expect_trace_law(const Scenario& scenario, const std::vector<Command>& comm
   test::expect_same(first.run, first.capture, third.run, third.capture, "lane.");
 }
 
+TEST(ReplayTraceLaw, HoldsForEveryOtherAttack) {
+  const Json attacks[] = {
+      {{"type", "bias"}, {"on", {"actuator:1"}}, {"params", {{"vector", Json::array({1.5})}}}},
+      {{"type", "dos"}, {"on", {"actuator:1"}}, {"params", {{"probability", 0.5}}}},
+      {{"type", "dos"}, {"on", {"sensor:1"}}, {"params", {{"probability", 0.3}}}},
+      {{"type", "stealthy"}, {"on", {"sensor:1"}}},
+      {{"type", "coordinated"}, {"on", {"sensor:1"}}, {"params", {{"shift", {1, -1}}}}},
+  };
+  for (Json attack : attacks) {
+    SCOPED_TRACE(attack.dump());
+    attack["from"] = 60;
+    expect_trace_law(replay_scenario("replay-mixed", {}, {{"adversary", {{"replay", nullptr}, {"it", attack}}}}));
+  }
+}
+
 TEST(ReplayTraceLaw, HoldsForEveryLaneAndCase) {
   for (const char* preset : test::kReplayPresets) {
     for (const int number : {1, 2}) {
