@@ -61,7 +61,7 @@ void Drive::read(double t, double branch, const ActuatorEffects* pushes, Eigen::
   for (const ActuatorEffects::Push& push : pushes->pushes) {
     const DrivePorts& ports = ports_[static_cast<std::size_t>(push.place.node)];
     const bool whole = push.place.channel < 0;
-    push.attack->push(t, branch, v.segment(ports.at_w() + (whole ? 0 : push.place.channel), whole ? ports.w : 1));
+    push.attack->push(push, t, branch, v.segment(ports.at_w() + (whole ? 0 : push.place.channel), whole ? ports.w : 1));
   }
 }
 
