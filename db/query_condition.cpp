@@ -7,9 +7,8 @@
 namespace vigil {
 
 const char* const kQueryFields =
-    "a field: id, scenario, family, state, seed, tag, note, error, created, started, ended, metrics.<name>, "
-    "<lane>.<name> or "
-    "params.<path>";
+    "a field: id, scenario, family, state, seed, tag, note, error, parent, created, started, ended, "
+    "metrics.<name>, <lane>.<name> or params.<path>";
 
 namespace {
 
@@ -56,6 +55,7 @@ QueryField ConditionWriter::field(const std::string& name, std::size_t position)
   for (const auto& [known, kind] : plain) {
     if (name == known) return {kind, "run." + name, {}};
   }
+  if (name == "parent") return {FieldKind::integer, "run.parent_run", {}};
   const auto dot = name.find('.');
   if (dot == std::string::npos || dot == 0 || dot + 1 == name.size()) {
     text_.fail_at(position, "there is no field " + name + "; expected " + kQueryFields + ".");
