@@ -42,6 +42,11 @@ export async function get<T>(path: string, query?: Query, signal?: AbortSignal):
   return body<T>(await send('GET', address(path, query), { signal, headers: { Accept: 'application/json' } }));
 }
 
+/** A text as it is, e.g. a trace's CSV or a bundle: no number of it passes through the page's. */
+export async function textOf(path: string, type: string, query?: Query): Promise<string> {
+  return (await send('GET', address(path, query), { headers: { Accept: type } })).text();
+}
+
 async function write<T>(method: string, path: string, json: unknown, headers: Record<string, string> = {}): Promise<T> {
   return body<T>(await send(method, address(path), { headers: { 'Content-Type': 'application/json', ...headers }, body: JSON.stringify(json) }));
 }

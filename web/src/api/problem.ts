@@ -13,6 +13,8 @@ export class ApiProblem extends Error {
     readonly detail: string,
     readonly errors: ProblemField[] = [],
     readonly requestId: string | null = null,
+    /** s after which the server asks to be tried again; null: it does not say. */
+    readonly retryAfter: number | null = null,
   ) {
     super(detail || title);
     this.name = 'ApiProblem';
@@ -20,11 +22,13 @@ export class ApiProblem extends Error {
 
   static async from(response: Response): Promise<ApiProblem> {
     const id = response.headers.get('X-Request-Id');
+    const wait = response.headers.get('Retry-After');
+    const retryAfter = wait !== null && /^\d+$/.test(wait) ? Number(wait) : null;
     try {
       const body = (await response.json()) as Partial<{ title: string; detail: string; errors: ProblemField[]; request_id: string }>;
-      return new ApiProblem(response.status, body.title ?? response.statusText, body.detail ?? '', body.errors ?? [], body.request_id ?? id);
+      return new ApiProblem(response.status, body.title ?? response.statusText, body.detail ?? '', body.errors ?? [], body.request_id ?? id, retryAfter);
     } catch {
-      return new ApiProblem(response.status, response.statusText || String(response.status), '', [], id);
+      return new ApiProblem(response.status, response.statusText || String(response.status), '', [], id, retryAfter);
     }
   }
 }

@@ -77,6 +77,11 @@ export class Source {
     this.touch();
   }
 
+  /** Changes with every window that came. */
+  get fetched(): string {
+    return `${this.windows.fetchedAt} ${this.exacts.fetchedAt}`;
+  }
+
   /** Changes when what is drawn of a window up to tick `to` may have changed: not with every new tick beyond it. */
   stamp(to: number): string {
     return `${this.windows.fetchedAt} ${this.exacts.fetchedAt} ${this.inserts} ${this.rings.length} ${Math.min(this.head, Math.ceil(to) + 1)}`;

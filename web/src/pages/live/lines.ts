@@ -21,6 +21,9 @@ export interface LineSpec {
   strong?: boolean;
 }
 
+/** What of a line says which values it draws. */
+export type ReadLine = Pick<LineSpec, 'signal' | 'minus' | 'map' | 'close' | 'unstreamed'>;
+
 /** Every value squared: comparable with a trace of a covariance. */
 export function squared(series: Series): Series {
   const lo = series.lo.map((v) => v * v);
@@ -28,14 +31,14 @@ export function squared(series: Series): Series {
 }
 
 /** The values that a line draws. */
-export function readLine(line: LineSpec, read: (signal: string) => Series): Series {
+export function readLine(line: ReadLine, read: (signal: string) => Series): Series {
   const own = read(line.signal);
   const series = line.minus ? (line.close ? closeDifference : difference)(own, read(line.minus)) : own;
   return line.map ? line.map(series) : series;
 }
 
 /** The values of a line in a window, from wherever they are. */
-export function lineOf(line: LineSpec, source: Source, from: number, to: number): Series {
+export function lineOf(line: ReadLine, source: Source, from: number, to: number): Series {
   const read = (name: string): Series => (!line.close ? source.get(name, from, to) : line.unstreamed ? source.logged(name, from, to) : source.exact(name, from, to));
   return readLine(line, read);
 }

@@ -9,6 +9,8 @@ import type { Crossing, Stretch } from './strip';
 
 export interface DrawnLine {
   series: Series;
+  /** What it is drawn from: another branch of the run has it, too. */
+  signal?: string;
   token: string;
   width: number;
   dash: readonly number[];
