@@ -1,7 +1,6 @@
 export const en = {
   run: 'run {id}',
   seed: 'seed {seed}',
-  forked: 'forked from run {run} at k = {k}',
   compare_origin: 'Compare with its origin',
   no_run: 'No run is named',
   no_run_why: 'This server runs no demo. Start a scenario, or pick a run.',

@@ -4,7 +4,6 @@ import type { en } from './words_en';
 export const zh: Translation<typeof en> = {
   run: '运行 {id}',
   seed: '种子 {seed}',
-  forked: '自运行 {run} 的 k = {k} 分叉',
   compare_origin: '与来源对比',
   no_run: '未指定运行',
   no_run_why: '此服务器没有演示运行。请启动一个场景，或选择一个运行。',
