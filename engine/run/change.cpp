@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/core/describe.hpp"
+#include "engine/methods/detectors/detector.hpp"
 #include "engine/run/state.hpp"
 #include "engine/scenario/document.hpp"
 #include "engine/scenario/fields.hpp"
@@ -25,7 +26,8 @@ std::vector<std::string> split(const std::string& path) {
 
 [[noreturn]] void not_live(const std::string& path, const std::string& pointer) {
   throw InputError(pointer, fmt::format("\"{}\" cannot be changed while the run goes on", path),
-                   "lanes.<lane>.params.<live parameter>, adversary.<attack>.params.<live parameter>, "
+                   "lanes.<lane>.params.<live parameter>, lanes.<lane>.detector.params.<live parameter>, "
+                   "adversary.<attack>.params.<live parameter>, "
                    "adversary.<attack>.enabled, network.graph");
 }
 
@@ -43,6 +45,29 @@ void at_paths(const ParamGroup& group, Change&& change) {
     }
     throw InputError(std::move(problems));
   }
+}
+
+/// Whose value a path names; none: no live one.
+std::optional<ParamGroup::Of> owner(const std::vector<std::string>& parts) {
+  const bool params = parts.size() == 4 && parts[2] == "params";
+  if (parts[0] == "adversary" && (params || (parts.size() == 3 && parts[2] == "enabled")))
+    return ParamGroup::Of::attack;
+  if (parts[0] != "lanes") return std::nullopt;
+  if (params) return ParamGroup::Of::lane;
+  if (parts.size() == 5 && parts[2] == "detector" && parts[3] == "params") return ParamGroup::Of::detector;
+  return std::nullopt;
+}
+
+/// `params` with live values in place of its own. Throws with pointers that end in a parameter's name. `path`: of the
+/// params, for the sentence.
+Json with_live(Json params, const Json& values, const ParamTable* table, const std::string& path) {
+  for (const auto& [name, value] : values.items()) {
+    const Param* declared = table == nullptr ? nullptr : table->find(name);
+    if (declared == nullptr || !declared->live) not_live(path + "." + name, "/" + name);
+    if (const auto problem = table->check(*declared, value, "/" + name)) throw InputError({*problem});
+    params[name] = value;
+  }
+  return params;
 }
 
 /// A hand's attack, checked like one of the document; without "from" it begins at once.
@@ -63,6 +88,12 @@ Json hand_attack(const Json& given, const Json& document) {
   attack["id"] = id;
   if (!rest.contains("from")) attack.erase("from");
   return attack;
+}
+
+Lane& find_lane(std::vector<Lane>& lanes, const std::string& id) {
+  const auto lane = std::find_if(lanes.begin(), lanes.end(), [&](const Lane& other) { return other.id() == id; });
+  if (lane == lanes.end()) throw InputError("", fmt::format("this run has no lane \"{}\"", id));
+  return *lane;
 }
 
 }  // namespace
@@ -111,36 +142,44 @@ void Run::State::set_params(const Json& params) {
       continue;
     }
     const std::vector<std::string> parts = split(path);
-    const bool attack = parts[0] == "adversary" &&
-                        ((parts.size() == 4 && parts[2] == "params") || (parts.size() == 3 && parts[2] == "enabled"));
-    const bool lane = parts[0] == "lanes" && parts.size() == 4 && parts[2] == "params";
-    if (!attack && !lane) not_live(path, "/params/" + path);
-    const auto same = [&](const ParamGroup& group) { return group.attack == attack && group.id == parts[1]; };
+    const auto of = owner(parts);
+    if (!of) not_live(path, "/params/" + path);
+    const auto same = [&](const ParamGroup& group) { return group.of == *of && group.id == parts[1]; };
     auto group = std::find_if(groups.begin(), groups.end(), same);
-    if (group == groups.end()) group = groups.insert(groups.end(), {attack, parts[1], Json::object(), Json::object()});
+    if (group == groups.end()) group = groups.insert(groups.end(), {*of, parts[1], Json::object(), Json::object()});
     group->values[parts.back()] = value;
     group->paths[parts.back()] = "/params/" + path;
   }
   for (const ParamGroup& group : groups) {
-    at_paths(group, [&] { group.attack ? adversary.retune(group.id, group.values) : retune_lane(group); });
+    at_paths(group, [&] {
+      if (group.of == ParamGroup::Of::attack) adversary.retune(group.id, group.values);
+      if (group.of == ParamGroup::Of::lane) retune_lane(group);
+      if (group.of == ParamGroup::Of::detector) retune_detector(group);
+    });
   }
   rewire_lanes();
 }
 
 /// Throws with pointers that end in a parameter's name.
 void Run::State::retune_lane(const ParamGroup& group) {
-  const auto lane = std::find_if(lanes.begin(), lanes.end(), [&](const Lane& other) { return other.id() == group.id; });
-  if (lane == lanes.end()) throw InputError("", fmt::format("this run has no lane \"{}\"", group.id));
-  const auto* entry = Registry<MethodMake>::find(lane->method_id());
-  Json changed = lane->params();
-  for (const auto& [name, value] : group.values.items()) {
-    const Param* declared = entry == nullptr ? nullptr : entry->params.find(name);
-    if (declared == nullptr || !declared->live) not_live(fmt::format("lanes.{}.params.{}", group.id, name), "/" + name);
-    if (const auto problem = entry->params.check(*declared, value, "/" + name)) throw InputError({*problem});
-    changed[name] = value;
-  }
-  lane->retune(Params(changed));
-  lane->params() = std::move(changed);
+  Lane& lane = find_lane(lanes, group.id);
+  const auto* entry = Registry<MethodMake>::find(lane.method_id());
+  Json changed =
+      with_live(lane.params(), group.values, entry ? &entry->params : nullptr, "lanes." + group.id + ".params");
+  lane.retune(Params(changed));
+  lane.params() = std::move(changed);
+}
+
+/// Throws with pointers that end in a parameter's name.
+void Run::State::retune_detector(const ParamGroup& group) {
+  Lane& lane = find_lane(lanes, group.id);
+  if (lane.detector().is_null())
+    throw InputError("", fmt::format("no detector is attached to the lane \"{}\"", group.id));
+  const auto* entry = Registry<DetectorMake>::find(lane.detector()["type"].get<std::string>());
+  Json changed = with_live(lane.detector()["params"], group.values, entry ? &entry->params : nullptr,
+                           "lanes." + group.id + ".detector.params");
+  lane.retune_detector(Params(changed));
+  lane.detector()["params"] = std::move(changed);
 }
 
 void Run::State::set_graph(const Json& value) {

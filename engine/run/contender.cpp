@@ -42,6 +42,10 @@ void Contender::attach(const Detector& detector) {
   detections_.assign(detectors_.size(), {});
 }
 
+void Contender::retune_detector(const Params& params) {
+  for (const auto& detector : detectors_) detector->retune(params);
+}
+
 void Contender::make_inbox(const Graph& graph) {
   inbox_.resize(method_->message() > 0 ? graph.links().size() : 0);
   for (Delivery& delivery : inbox_) delivery.payload = Eigen::VectorXd::Zero(method_->message());

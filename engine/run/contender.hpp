@@ -56,6 +56,8 @@ class Contender {
   Side side() const { return side_; }
   /// Puts a detector on every output, in place of the method's own. Before begin().
   void attach(const Detector& detector);
+  /// Live values for the attached detectors; `params` is complete.
+  void retune_detector(const Params& params);
   bool attached() const { return !detectors_.empty(); }
   bool detects() const { return attached() || method_->detects(); }
   Detection detection(int output) const {

@@ -279,6 +279,11 @@ void Lane::retune(const Params& params) {
   if (twin_) twin_->method().retune(params);
 }
 
+void Lane::retune_detector(const Params& params) {
+  contender_.retune_detector(params);
+  if (twin_) twin_->retune_detector(params);
+}
+
 void Lane::rewire(const Graph& graph, const std::vector<LinkRates>& rates) {
   const std::vector<LinkRates> mine = options_.spared ? std::vector<LinkRates>(rates.size()) : rates;
   contender_.rewire(graph, mine);

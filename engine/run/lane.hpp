@@ -28,6 +28,7 @@ struct LaneOptions {
   Contender::Side side = Contender::Side::shared;
   std::optional<std::int64_t> last;  ///< the run's last tick
   Json params;
+  Json detector;  ///< of the document: {"type","params"} of what is attached; null: nothing is
   ScoreRules rules;
 };
 
@@ -55,6 +56,7 @@ class Lane {
   const std::string& id() const { return options_.id; }
   const std::string& method_id() const { return options_.method_id; }
   bool spared() const { return options_.spared; }
+  bool monitors() const { return options_.monitor; }
   bool stopped() const { return faults_.stopped(); }
   Method& method() { return contender_.method(); }
   const Method& method() const { return contender_.method(); }
@@ -64,6 +66,8 @@ class Lane {
   SensorEffects& recorded_effects() { return recorded_effects_; }
   Json& params() { return options_.params; }
   void retune(const Params& params);
+  Json& detector() { return options_.detector; }
+  void retune_detector(const Params& params);
   FaultTable& faults() { return faults_; }
   const FaultTable& faults() const { return faults_; }
   const std::vector<std::string>& outputs() const { return outputs_; }

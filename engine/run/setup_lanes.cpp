@@ -203,6 +203,7 @@ void Run::State::set_lanes(const Json& document) {
     if (protection) check_protected(*protection, *made, lane, pointer);
     if (made->fusion() != nullptr) protection.reset();  // the method encodes and decodes by itself
     const auto detector = make_detector(lane, pointer, *made);
+    if (detector) options.detector = lane["detector"];
     options.side = side_of(id, *made, options.spared, detector != nullptr);
     lanes.emplace_back(std::move(options), std::move(made), std::move(protection), detector.get(), world, graph);
   }

@@ -39,12 +39,13 @@ struct WorldSlots {
   std::vector<int> drives;  ///< by the plant's ports, -1 for known inputs; empty: not in continuous time
 };
 
-/// Live values of one command for one lane or attack.
+/// Live values of one command for one lane, the detector attached to it, or an attack.
 struct ParamGroup {
-  bool attack = false;
-  std::string id;
-  Json values;  ///< by parameter; of an attack also "enabled"
-  Json paths;   ///< of the values, as pointers into the command
+  enum class Of { lane, detector, attack };
+  Of of = Of::lane;
+  std::string id;  ///< the lane's or the attack's
+  Json values;     ///< by parameter; of an attack also "enabled"
+  Json paths;      ///< of the values, as pointers into the command
 };
 
 struct Run::State {
@@ -110,12 +111,14 @@ struct Run::State {
 
   void set_params(const Json& params);
   void retune_lane(const ParamGroup& group);
+  void retune_detector(const ParamGroup& group);
   void set_graph(const Json& value);
   void rewire_lanes();
 };
 
-/// The campaign's way in: runs with records of bounds.
+/// The way in of those who look at a run's parts: campaigns at records of bounds, the table of compatibility at lanes.
 struct TrialAccess {
+  using State = Run::State;
   static Run::State& state(Run& run) { return *run.state_; }
 };
 

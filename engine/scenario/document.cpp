@@ -4,6 +4,7 @@
 
 #include "engine/adversary/attack.hpp"
 #include "engine/core/describe.hpp"
+#include "engine/methods/detectors/detector.hpp"
 #include "engine/methods/method.hpp"
 #include "engine/scenario/fields.hpp"
 
@@ -107,7 +108,10 @@ std::vector<std::string> live_paths(const Json& document) {
     paths.push_back(path + ".enabled");
     add_live<AttackMake>(attack, "type", path, paths);
   }
-  for (const auto& [id, lane] : document["lanes"].items()) add_live<MethodMake>(lane, "method", "lanes." + id, paths);
+  for (const auto& [id, lane] : document["lanes"].items()) {
+    add_live<MethodMake>(lane, "method", "lanes." + id, paths);
+    add_live<DetectorMake>(lane.value("detector", Json::object()), "type", "lanes." + id + ".detector", paths);
+  }
   return paths;
 }
 

@@ -87,7 +87,7 @@ void patch(Services& services, const HttpRequest& request, HttpResponse& respons
 
 void attack(Services& services, const HttpRequest& request, HttpResponse& response) {
   const Json body = request.json();
-  check_members(body, {"id", "type", "on", "from", "to", "params"});
+  check_members(body, {"id", "type", "on", "from", "to", "schedule", "params"});
   Command command;
   try {
     command = live_run(request, services)->command({{"attack", body}});
@@ -191,6 +191,9 @@ Json attack_doc() {
                                 {"on", {{"type", "array"}, {"items", {{"type", "string"}}}}},
                                 {"from", tick},
                                 {"to", tick},
+                                {"schedule",
+                                 {{"type", {"object", "null"}},
+                                  {"description", "acts in the first `for` of every `every` ticks, `budget` in all"}}},
                                 {"params", {{"type", "object"}}}},
                                {"type"}))
       .answer(201, "Its id, and the tick it acts from.", answer)

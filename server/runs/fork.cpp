@@ -66,11 +66,31 @@ class PatchSorter {
       if (known && member.is_null()) {
         params["adversary." + id + ".enabled"] = false;
       } else if (known) {
-        descend("adversary." + id, member, here);
+        known_attack(id, member, here);
       } else {
         new_attack(id, member, here);
       }
     }
+  }
+
+  /// When an attack of the document acts may change where neither the old time nor the new one reaches back to tick k.
+  void known_attack(const std::string& id, const Json& member, const std::string& pointer) {
+    if (!member.is_object()) return descend("adversary." + id, member, pointer);
+    Json rest = member, times = Json::object();
+    for (const char* key : {"from", "to", "schedule"}) {
+      if (!rest.contains(key)) continue;
+      times[key] = rest[key];
+      rest.erase(key);
+    }
+    if (!rest.empty() || times.empty()) descend("adversary." + id, rest, pointer);
+    if (times.empty()) return;
+    const Json& old = document_.at("adversary").at(id).at("from");
+    for (const Json& from : {old, times.value("from", old)}) {
+      if (!from.is_number() || from.get<double>() <= static_cast<double>(k_))
+        return refuse(child(pointer, times.begin().key()),
+                      "the attack begins at tick " + shown(from) + ", not after tick " + std::to_string(k_) + ".");
+    }
+    document_patch["adversary"][id] = times;
   }
 
   void new_attack(const std::string& id, const Json& member, const std::string& pointer) {

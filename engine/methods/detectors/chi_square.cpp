@@ -34,6 +34,10 @@ class ChiSquare final : public Detector {
     return {sum, threshold_, true, sum > threshold_};
   }
   int tail() const override { return static_cast<int>(squares_.size()) - 1; }
+  void retune(const Params& params) override {
+    confidence_ = 1 - params.real("alpha");
+    channels_ = -1;  // the threshold is found anew with the next innovation
+  }
 
  private:
   double confidence_, threshold_ = 0;
@@ -54,6 +58,7 @@ const Registration<DetectorMake> registration({
          .maximum = 1,
          .exclusive_minimum = true,
          .exclusive_maximum = true,
+         .live = true,
          .symbol = "α",
          .meaning = {"Probability of a false alarm in a tick", "每步虚警概率"}},
         {.name = "window",

@@ -8,8 +8,7 @@ namespace {
 
 class Cusum final : public Detector {
  public:
-  explicit Cusum(const Params& params)
-      : drift_(params.real("drift")), threshold_(params.real("threshold")), restarts_(params.boolean("restart")) {}
+  explicit Cusum(const Params& params) { take(params); }
 
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Cusum>(*this); }
 
@@ -23,10 +22,17 @@ class Cusum final : public Detector {
     sum_ = std::max(0.0, sum_ + (square - channels) / std::sqrt(2 * channels) - drift_);
     return {sum_, threshold_, true, sum_ > threshold_};
   }
+  void retune(const Params& params) override { take(params); }
 
  private:
-  double drift_, threshold_, sum_ = 0;
-  bool restarts_;
+  void take(const Params& params) {
+    drift_ = params.real("drift");
+    threshold_ = params.real("threshold");
+    restarts_ = params.boolean("restart");
+  }
+
+  double drift_ = 0, threshold_ = 0, sum_ = 0;
+  bool restarts_ = true;
   NormalisedSquare square_;
 };
 
@@ -39,17 +45,20 @@ const Registration<DetectorMake> registration({
          .fallback = 0.5,
          .minimum = 0,
          .maximum = 1e6,
+         .live = true,
          .symbol = "ν",
          .meaning = {"What is taken off at every tick, in standard deviations", "每步漂移量（标准差）"}},
         {.name = "threshold",
          .fallback = 10,
          .minimum = 0,
          .maximum = 1e9,
+         .live = true,
          .symbol = "h",
          .meaning = {"Sum above which it alarms", "报警阈值"}},
         {.name = "restart",
          .type = ParamType::boolean,
          .fallback = true,
+         .live = true,
          .meaning = {"Begins again from zero after an alarm", "报警后归零"}},
     }),
     [](const Params& params) -> std::unique_ptr<Detector> { return std::make_unique<Cusum>(params); },

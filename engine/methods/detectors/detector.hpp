@@ -26,6 +26,8 @@ class Detector {
   virtual Detection hold() { return {}; }
   /// Ticks after an attack whose statistic still holds innovations of it.
   virtual int tail() const { return 0; }
+  /// Takes the live values of complete parameters; what it has gathered stays. Throws like its making.
+  virtual void retune(const Params& params) = 0;
 };
 
 /// Throws InputError with pointers relative to the params.

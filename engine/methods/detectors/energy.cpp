@@ -8,9 +8,17 @@
 namespace vigil {
 namespace {
 
+/// What one of the two kinds makes of its parameters.
+struct EnergyRule {
+  replay::DetectorSettings settings;
+  double level = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the detector's own threshold
+};
+using ReadRule = EnergyRule (*)(const Params& params);
+
 class Energy final : public Detector {
  public:
-  Energy(const replay::DetectorSettings& settings, double level) : detector_(settings), level_(level) {}
+  Energy(const Params& params, ReadRule read)
+      : read_(read), detector_(read(params).settings), level_(read(params).level) {}
 
   std::unique_ptr<Detector> clone() const override { return std::make_unique<Energy>(*this); }
 
@@ -20,6 +28,11 @@ class Energy final : public Detector {
   }
   Detection hold() override { return say(detector_.hold(), false); }
   int tail() const override { return detector_.settings().window - 1; }
+  void retune(const Params& params) override {
+    const EnergyRule rule = read_(params);
+    detector_.retune(rule.settings);
+    level_ = rule.level;
+  }
 
  private:
   Detection say(const replay::Verdict& verdict, bool judged) const {
@@ -36,9 +49,29 @@ class Energy final : public Detector {
     return detection;
   }
 
+  ReadRule read_;
   replay::EnergyDetector detector_;
-  double level_;  ///< NaN: the detector's own threshold
+  double level_;
 };
+
+EnergyRule dynamic_rule(const Params& params) {
+  EnergyRule rule;
+  rule.settings.window = params.integer("window");
+  rule.settings.threshold =
+      params.text("threshold") == "printed" ? replay::Threshold::printed : replay::Threshold::frozen;
+  rule.settings.tau = params.integer("tau");
+  rule.settings.eta = params.real("eta");
+  rule.settings.iota = params.real("iota");
+  return rule;
+}
+
+EnergyRule fixed_rule(const Params& params) {
+  EnergyRule rule;
+  rule.settings.window = params.integer("window");
+  rule.settings.threshold = replay::Threshold::fixed_square;
+  if (params.given("level")) rule.level = params.real("level");
+  return rule;
+}
 
 Param window() {
   return {.name = "window",
@@ -73,25 +106,18 @@ const Registration<DetectorMake> dynamic({
          .fallback = 3,
          .minimum = 0,
          .maximum = 1e6,
+         .live = true,
          .symbol = "η",
          .meaning = {"Standard deviations above the mean", "均值以上的标准差倍数"}},
         {.name = "iota",
          .fallback = 0,
          .minimum = 0,
          .maximum = 1e9,
+         .live = true,
          .symbol = "ι",
          .meaning = {"Dead band of the threshold", "阈值死区"}},
     }),
-    [](const Params& params) -> std::unique_ptr<Detector> {
-      replay::DetectorSettings settings;
-      settings.window = params.integer("window");
-      settings.threshold =
-          params.text("threshold") == "printed" ? replay::Threshold::printed : replay::Threshold::frozen;
-      settings.tau = params.integer("tau");
-      settings.eta = params.real("eta");
-      settings.iota = params.real("iota");
-      return std::make_unique<Energy>(settings, std::numeric_limits<double>::quiet_NaN());
-    },
+    [](const Params& params) -> std::unique_ptr<Detector> { return std::make_unique<Energy>(params, dynamic_rule); },
 });
 
 const Registration<DetectorMake> fixed({
@@ -104,17 +130,12 @@ const Registration<DetectorMake> fixed({
          .fallback = nullptr,
          .minimum = 0,
          .nullable = true,
+         .live = true,
          .symbol = "θ",
          .meaning = {"Threshold; none: the largest squared norm of ticks 3 to 49",
                      "阈值；无：第 3 至 49 步的最大范数平方"}},
     }),
-    [](const Params& params) -> std::unique_ptr<Detector> {
-      replay::DetectorSettings settings;
-      settings.window = params.integer("window");
-      settings.threshold = replay::Threshold::fixed_square;
-      const double level = params.given("level") ? params.real("level") : std::numeric_limits<double>::quiet_NaN();
-      return std::make_unique<Energy>(settings, level);
-    },
+    [](const Params& params) -> std::unique_ptr<Detector> { return std::make_unique<Energy>(params, fixed_rule); },
 });
 
 }  // namespace

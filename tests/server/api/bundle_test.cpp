@@ -119,6 +119,37 @@ TEST_F(BundleTest, AForkMayNotAlterThePast) {
   EXPECT_EQ(late.status, 201) << late.body;
 }
 
+// Neither the old time nor the new one may reach back to the tick of the fork.
+TEST_F(BundleTest, AForkMovesAnAttackThatHasNotBegun) {
+  const std::string id = client_->start({{"scenario", "sparse"}, {"patch", {{"time", {{"steps", 40}}}}}});
+  const Json times{{"from", 30}, {"to", 34}};
+  const auto fork = [&](const std::string& run, std::int64_t k, const Json& patch) {
+    return client_->post(path(run) + "/fork",
+                         {{"k", k}, {"pace", "max"}, {"patch", {{"adversary", {{"node3", patch}}}}}});
+  };
+  ASSERT_TRUE(client_->reaches(id, "finished"));
+  const Answer moved = fork(id, 20, times);
+  ASSERT_EQ(moved.status, 201) << moved.body;
+  const Json attack = moved.json.at("document").at("adversary").at("node3");
+  EXPECT_EQ(attack.at("from"), 30);
+  EXPECT_EQ(attack.at("to"), 34);
+  EXPECT_EQ(attack.at("type"), "radar_fdi");
+  const std::string other = moved.json.at("id");
+  ASSERT_TRUE(client_->reaches(other, "finished"));
+  EXPECT_EQ(frames(other, "?to=29"), frames(id, "?to=29"));
+  EXPECT_NE(frames(other), frames(id));
+  Json begins = Json::array();
+  const Answer marks = client_->get(path(other) + "/marks?type=attack");
+  for (const Json& mark : marks.json.at("items")) {
+    if (mark.at("id") == "node3") begins.push_back(Json::array({mark.at("edge"), mark.at("k")}));
+  }
+  EXPECT_EQ(begins, Json::array({Json::array({"begin", 30}), Json::array({"end", 35})}));
+  expect_problem(fork(id, 30, times), 422, "/patch/adversary/node3/from");
+  expect_problem(fork(other, 31, {{"from", 38}}), 422, "/patch/adversary/node3/from");
+  expect_problem(fork(other, 31, {{"to", 38}}), 422, "/patch/adversary/node3/to");
+  expect_problem(fork(id, 20, {{"from", 30}, {"to", 25}}), 422, "/adversary/node3/to");
+}
+
 TEST_F(BundleTest, BadBundlesAreNamed) {
   const std::string id = client_->start({{"scenario", "consensus"}});
   ASSERT_TRUE(client_->reaches(id, "finished"));

@@ -76,6 +76,30 @@ TEST_F(ControlTest, AttacksStartAndEnd) {
   EXPECT_EQ(client_->get(path(id)).json.at("commands").size(), 2u);
 }
 
+TEST_F(ControlTest, AnAttackByHandMayHaveASchedule) {
+  const std::string id = endless();
+  client_->patch(path(id), {{"state", "paused"}});
+  const Json asked{{"type", "dos"}, {"on", {"link:1-2"}}, {"schedule", {{"every", 4}, {"for", 1}, {"budget", 2}}}};
+  const Answer started = client_->post(path(id) + "/attacks", asked);
+  ASSERT_EQ(started.status, 201) << started.body;
+  const std::int64_t from = started.json.at("k");
+  client_->patch(path(id), {{"step", 12}});
+  ASSERT_TRUE(eventually([&] { return client_->tick(id) == from + 11; }));
+  Json ticks = Json::array();
+  ASSERT_TRUE(eventually([&] {
+    ticks = Json::array();
+    const Answer marks = client_->get(path(id) + "/marks?type=attack");
+    for (const Json& mark : marks.json.at("items")) {
+      if (mark.at("id") == started.json.at("id")) ticks.push_back(mark.at("k").get<std::int64_t>() - from);
+    }
+    return ticks.size() == 4;
+  })) << ticks;
+  EXPECT_EQ(ticks, Json({0, 1, 4, 5}));
+  Json wrong = asked;
+  wrong["schedule"]["for"] = 9;
+  expect_problem(client_->post(path(id) + "/attacks", wrong), 422, "/schedule/for");
+}
+
 TEST_F(ControlTest, BadChangesChangeNothing) {
   const std::string id = endless();
   client_->patch(path(id), {{"state", "paused"}});

@@ -119,6 +119,55 @@ TEST(Detectors, OnALaneTheySeeWhatItsSensorHears) {
   EXPECT_LT(test::metric(metrics, "isolated", "fpr", "5"), .1);
 }
 
+TEST(Detectors, TakeLiveValuesAndKeepWhatTheyGathered) {
+  const Eigen::MatrixXd S = Eigen::Matrix<double, 1, 1>(1);
+  const Eigen::Matrix<double, 1, 1> r(2);
+  const auto retuned = [](Detector& judge, const std::string& id, const Json& params) {
+    std::vector<Problem> problems;
+    judge.retune(Params(Registry<DetectorMake>::find(id)->params.complete(params, "", problems)));
+  };
+  const auto sum = detector("cusum", {{"drift", 0}, {"threshold", 100}});
+  const double first = sum->judge(1, r, S).statistic;
+  retuned(*sum, "cusum", {{"drift", 0}, {"threshold", 3}});
+  const Detection second = sum->judge(2, r, S);
+  EXPECT_DOUBLE_EQ(second.statistic, 2 * first);
+  EXPECT_EQ(second.threshold, 3);
+  EXPECT_TRUE(second.alarm);
+  const auto square = detector("chi_square", {{"alpha", .01}});
+  EXPECT_FALSE(square->judge(1, r, S).alarm);
+  retuned(*square, "chi_square", {{"alpha", .1}});
+  EXPECT_DOUBLE_EQ(square->judge(2, r, S).threshold, chi_square_quantile(.9, 1));
+  EXPECT_TRUE(square->judge(3, r, S).alarm);
+  const auto level = detector("fixed", {{"window", 2}, {"level", 20}});
+  level->judge(1, r, S);
+  retuned(*level, "fixed", {{"window", 2}, {"level", 3}});
+  const Detection full = level->judge(2, r, S);
+  EXPECT_EQ(full.statistic, 4) << "the mean over both";
+  EXPECT_TRUE(full.alarm);
+}
+
+// The command acts before its tick, and only where a detector is attached and the parameter is declared live.
+TEST(Detectors, TheirLiveValuesAreCommands) {
+  Json document = with_detector("consensus", "isolated", {{"type", "chi_square"}});
+  document["time"]["steps"] = 20;
+  vigil::Run run(Scenario::from_json(document), {2, nullptr, {}});
+  const auto change = [](const char* path, const Json& value) { return Json{{"params", {{path, value}}}}; };
+  run.apply({11, change("lanes.isolated.detector.params.alpha", 0.2)});
+  test::Capture capture;
+  test::run_to_end(run, capture);
+  const auto threshold = static_cast<std::size_t>(run.catalogue().find("lane.isolated.4.threshold"));
+  EXPECT_DOUBLE_EQ(capture.frames[10].values[threshold], chi_square_quantile(.99, 2));
+  EXPECT_DOUBLE_EQ(capture.frames[11].values[threshold], chi_square_quantile(.8, 2));
+  for (const auto& [path, value] : {std::pair{"lanes.isolated.detector.params.window", Json(3)},
+                                    std::pair{"lanes.isolated.detector.params.alpha", Json(2)},
+                                    std::pair{"lanes.consensus.detector.params.alpha", Json(.1)},
+                                    std::pair{"lanes.isolated.detector.type", Json("cusum")}}) {
+    SCOPED_TRACE(path);
+    vigil::Run other(Scenario::from_json(document), {2, nullptr, {}});
+    EXPECT_THROW(other.prepare(change(path, value)), InputError);
+  }
+}
+
 TEST(Detectors, ALaneWithoutAnInnovationSaysSo) {
   const Json document = with_detector("mrclam", "dead_reckoning", {{"type", "cusum"}});
   Json consensus = Scenario::preset("sparse").document();
