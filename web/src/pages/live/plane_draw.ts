@@ -12,7 +12,8 @@ export interface Track {
 
 export interface PlaneScene {
   /** `centre`: no sensor stands there; drawn as a square. */
-  nodes: { id: string; position: [number, number] | null; centre?: boolean }[];
+  /** `attack`: how its sensor is attacked. */
+  nodes: { id: string; position: [number, number] | null; centre?: boolean; attack?: { token: string; letter: string } | null }[];
   links: { from: string; to: string; value: number }[];
   truth: Track;
   estimates: { id: string; track: Track; chosen: boolean }[];
@@ -177,7 +178,7 @@ function nodes(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y:
   context.font = `600 ${many ? 9 : 11}px 'IBM Plex Mono', monospace`;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
-  for (const { id, position, centre } of scene.nodes) {
+  for (const { id, position, centre, attack } of scene.nodes) {
     if (!position) continue;
     const [x, y] = [X(position[0]), Y(position[1])];
     context.beginPath();
@@ -185,11 +186,15 @@ function nodes(context: CanvasRenderingContext2D, scene: PlaneScene, X: Map1, Y:
     else context.arc(x, y, many ? 7.5 : id.length > 1 ? 10.5 : 9, 0, 2 * Math.PI);
     context.fillStyle = colour('surface');
     context.fill();
-    context.lineWidth = 1.4;
-    context.strokeStyle = colour('ink');
+    context.lineWidth = attack ? 2.4 : 1.4;
+    context.strokeStyle = colour(attack ? attack.token : 'ink');
     context.stroke();
     context.fillStyle = colour('ink');
     context.fillText(id, x, y + 0.5);
+    if (!attack) continue;
+    context.save();
+    drawBadge(context, { x: x + 12, y: y - 10, ...attack });
+    context.restore();
   }
 }
 
