@@ -110,10 +110,10 @@ describe('what a run offers', () => {
 
   it('decides the panels: a family has its own, another run those it has the data for', () => {
     const shown = (change: Partial<RunDetail>, known = signals): string[] => panelsOf({ ...run, ...change }, makeModel({ ...run, ...change }, known)).map((panel) => panel.name);
-    expect(shown({ family: 'consensus' })).toEqual(['plane', 'errors', 'raster', 'feasible', 'bound', 'events']);
-    expect(shown({ family: 'consensus' }, [])).toEqual(['plane', 'errors', 'raster', 'feasible', 'bound', 'events']);
-    expect(shown({ family: 'observer', view: {} }, [])).toEqual(['events']);
-    expect(shown({ family: 'observer', view: {} }, signals.slice(5, 6))).toEqual(['errors', 'events']);
+    expect(shown({ family: 'consensus' })).toEqual(['plane', 'errors', 'raster', 'feasible', 'bound', 'events', 'attacks']);
+    expect(shown({ family: 'consensus' }, [])).toEqual(['plane', 'errors', 'raster', 'feasible', 'bound', 'events', 'attacks']);
+    expect(shown({ family: 'observer', view: {} }, [])).toEqual(['events', 'network', 'attacks']);
+    expect(shown({ family: 'observer', view: {} }, signals.slice(5, 6))).toEqual(['errors', 'events', 'network', 'attacks']);
   });
 
   it('gives the rows of the first screen their shares', () => {
