@@ -8,6 +8,7 @@ import { pairsOf, setGraph, toggle } from './network';
 import { opened, squareOf } from './open';
 import { cellsAt, nodesOf, outputsOf, places, sensorPath, sizesOf } from './places';
 import { start, startNames } from './starts';
+import { viewOf, withView } from './view';
 import { wrongPlaces } from './wrong';
 
 const begun = (name: (typeof startNames)[number] = 'integrator') => opened(start(name))!;
@@ -43,6 +44,7 @@ describe('a document that is opened', () => {
   it('is refused where the plant or a sensor has no matrices', () => {
     expect(opened({ plant: { type: 'pair' }, nodes: {} })).toBeNull();
     expect(opened(put(start('integrator'), ['nodes', '1', 'sensor', 'type'], 'camera'))).toBeNull();
+    expect(at(opened({ plant: { type: 'linear', params: { A: [0.5, 2], B: null, states: null } }, nodes: {} }), ['plant', 'params'])).toEqual({ A: [[0.5, 0], [0, 2]], states: null });
     expect(squareOf(2, 2)).toEqual([[2, 0], [0, 2]]);
   });
 });
@@ -92,7 +94,7 @@ describe('the parts of a system', () => {
     expect(at(system, namePaths.states)).toEqual(['p', 'v', 'x3']);
     expect(at(setStates(system, 1), namePaths.states)).toEqual(['p']);
     expect(at(setInputs(system, 0), namePaths.inputs)).toBeUndefined();
-    expect(at(setNames(setNames(system, namePaths.states, ''), namePaths.inputs, ' '), ['plant', 'params', 'names'])).toBeUndefined();
+    expect(at(setNames(system, namePaths.states, ' '), namePaths.states)).toBeUndefined();
     expect(channelNames(setOutputs(system, '1', 2), '1')).toEqual(['y1', 'y2']);
   });
 
@@ -118,6 +120,16 @@ describe('the parts of a system', () => {
     expect(at(system, ['lanes', 'local_ekf_clean'])).toEqual({ method: 'local_ekf', adversary: false });
     system = removeLanesOf(addLaneOf(system, 'centralized_ekf'), 'local_ekf');
     expect(Object.keys(system.lanes as object)).toEqual(['centralized_ekf']);
+  });
+
+  it('are drawn on the live page: hints follow the states, those of the reader stay', () => {
+    const system = withView(begun(), begun());
+    expect(system.view).toEqual({ plane: { components: ['position', 'velocity'] }, errors: ['position', 'velocity'] });
+    const grown = withView(system, setStates(system, 3));
+    expect(grown.view).toEqual(viewOf(grown));
+    const own = put(system, ['view'], { errors: ['velocity'], detector: true });
+    expect(withView(own, setStates(own, 3)).view).toEqual({ errors: ['velocity'], detector: true });
+    expect(withView(own, setStates(own, 1)).view).toEqual({ detector: true });
   });
 
   it('are copied under a free name', () => {

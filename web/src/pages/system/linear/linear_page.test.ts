@@ -10,6 +10,7 @@ import TakeAlong from '../TakeAlong.svelte';
 import { opened } from './open';
 import type { Report } from './report';
 import { start } from './starts';
+import { withView } from './view';
 
 const sight = { rank: 2, observable: true, detectable: true, hidden: [], weakest: null, verdict: 'node 1 sees every mode of the plant' };
 const pole = { re: 1, im: 0, size: 1, behaviour: 'stays' as const, count: 2, text: '1' };
@@ -89,7 +90,8 @@ describe('the form of a linear system', () => {
   });
 
   it('opens a link of either kind, and says it where one cannot be read', async () => {
-    const document = put(opened(start('chain'))!, ['time', 'dt'], 0.25);
+    const chain = put(opened(start('chain'))!, ['time', 'dt'], 0.25);
+    const document = withView(chain, chain);
     history.replaceState(null, '', new URL(await linkOf('/system', document)).href);
     const first = render(SystemPage, { props: { params: {} } });
     await waitFor(() => expect(asked.at(-1)).toEqual(document));

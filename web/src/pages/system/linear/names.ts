@@ -3,8 +3,8 @@ import type { JsonObject } from '../../../form/json';
 import { at, put } from '../../../form/pointer';
 import { nodesOf, outputsOf, sensorPath, sizesOf, type Path } from './places';
 
-export const namePaths = { states: ['plant', 'params', 'names', 'states'], inputs: ['plant', 'params', 'names', 'inputs'] } as const;
-export const channelPath = (id: string): string[] => [...sensorPath(id), 'names'];
+export const namePaths = { states: ['plant', 'params', 'states'], inputs: ['plant', 'params', 'inputs'] } as const;
+export const channelPath = (id: string): string[] => [...sensorPath(id), 'channels'];
 
 function listed(document: JsonObject, path: Path, count: number, letter: string): string[] {
   const given = at(document, path);
@@ -21,10 +21,7 @@ export const named = (document: JsonObject, path: Path): boolean => Array.isArra
 /** Names as typed, apart by commas or blanks; none: counted again. */
 export function setNames(document: JsonObject, path: Path, text: string): JsonObject {
   const names = text.split(/[\s,，、]+/).filter((name) => name !== '');
-  const next = put(document, path, names.length ? names : undefined);
-  if (path[0] !== 'plant') return next;
-  const left = at(next, ['plant', 'params', 'names']);
-  return left && Object.keys(left).length ? next : put(next, ['plant', 'params', 'names'], undefined);
+  return put(document, path, names.length ? names : undefined);
 }
 
 /** Where names are given they are as many as what they name. */

@@ -16,11 +16,18 @@ export function grown(cells: Cells, size: number): Cells {
   return resized(cells, size, size).map((row, i) => row.map((cell, j) => (i === j && i >= cells.length ? last : cell)));
 }
 
+/** A matrix as a document may have it: rows, a diagonal, a number. */
+function matrixOf(value: Json | undefined): Cells {
+  if (typeof value === 'number') return [[value]];
+  if (Array.isArray(value) && value.some((row) => !Array.isArray(row))) return squareOf(value, value.length);
+  return Array.isArray(value) ? value.map((row) => (Array.isArray(row) ? row : [])) : [];
+}
+
 const isNothing = (cells: Cells): boolean => cells.every((row) => row.every((cell) => cell === 0));
 
 function withSensor(document: JsonObject, id: string, n: number): JsonObject {
   const path = sensorPath(id);
-  const C = cellsAt(document, [...path, 'C']);
+  const C = matrixOf(at(document, [...path, 'C']));
   const p = Math.max(1, C.length);
   const Mv = squareOf(at(document, [...path, 'Mv']), p);
   const params: JsonObject = { ...objectAt(document, path), C: resized(C, p, n), R: squareOf(at(document, [...path, 'R']), p, 1), Mv };
@@ -56,9 +63,9 @@ export function withController(document: JsonObject): JsonObject {
 /** Null: the document describes another kind of plant, or sensors that have no matrices. */
 export function opened(document: JsonObject): JsonObject | null {
   if (at(document, ['plant', 'type']) !== 'linear' || nodesOf(document).some((id) => at(document, ['nodes', id, 'sensor', 'type']) !== 'linear')) return null;
-  const A = cellsAt(document, places.A);
+  const A = matrixOf(at(document, places.A));
   const n = Math.max(1, A.length, ...A.map((row) => row.length));
-  const B = cellsAt(document, places.B);
+  const B = matrixOf(at(document, places.B));
   const m = Math.max(0, ...B.map((row) => row.length));
   let whole = put(put(document, places.A, resized(A, n, n)), places.B, m > 0 ? resized(B, n, m) : undefined);
   for (const id of nodesOf(whole)) whole = withSensor(whole, id, n);
