@@ -16,6 +16,7 @@ class DeadReckoning final : public Method {
 
   std::unique_ptr<Method> clone() const override { return std::make_unique<DeadReckoning>(*this); }
   std::vector<std::string> outputs() const override { return ids_; }
+  bool reads() const override { return false; }
 
   void predict(const Eigen::VectorXd& input, FaultReport& report) override {
     for (std::size_t i = 0; i < states_.size(); ++i) {

@@ -130,6 +130,7 @@ class Method {
 
   virtual std::vector<std::string> outputs() const = 0;  ///< ids of what it estimates at: the nodes, or "fused"
   virtual int message() const { return 0; }              ///< size of what a node sends; 0: uses no channel
+  virtual bool reads() const { return true; }            ///< false: it listens to no sensor
   virtual void declare(SignalScope& /*scope*/) {}
 
   /// True where something of its own leaves the sensors: a mark, or a message that the sensor makes.

@@ -32,6 +32,7 @@ void add_run_routes(Routes& routes, Services& services);
 void add_control_routes(Routes& routes, Services& services);
 void add_design_routes(Routes& routes, Services& services);
 void add_check_routes(Routes& routes, Services& services);
+void add_compatibility_routes(Routes& routes, Services& services);
 void add_data_routes(Routes& routes, Services& services);
 void add_compare_routes(Routes& routes, Services& services);
 void add_bundle_routes(Routes& routes, Services& services);

@@ -64,6 +64,7 @@ Routes make_routes(Services& services) {
   add_control_routes(routes, services);
   add_design_routes(routes, services);
   add_check_routes(routes, services);
+  add_compatibility_routes(routes, services);
   add_data_routes(routes, services);
   add_compare_routes(routes, services);
   add_bundle_routes(routes, services);

@@ -62,6 +62,7 @@ int run_command_line(int argc, char** argv) {
   add_compare(app, action);
   add_synthesize(app, action);
   add_check(app, action);
+  add_compatibility(app, action);
   add_lists(app, action);
   add_trace(app, action);
   add_identify(app, action);

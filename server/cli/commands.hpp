@@ -28,6 +28,7 @@ void add_campaign(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_synthesize(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_compatibility(CLI::App& app, Action& action);
 void add_lists(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);

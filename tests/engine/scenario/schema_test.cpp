@@ -6,6 +6,7 @@
 
 #include "engine/adversary/attack.hpp"
 #include "engine/methods/method.hpp"
+#include "engine/run/compatibility.hpp"
 #include "engine/scenario/markdown.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "tests/engine/scenario/small_schema.hpp"
@@ -129,6 +130,13 @@ TEST(Documentation, ParametersPageFollowsTheCode) {
   if (std::getenv("VIGIL_UPDATE_DOCS") != nullptr) std::ofstream(path) << parameters_markdown();
   EXPECT_EQ(page("parameters.md"), parameters_markdown())
       << "run the engine tests with VIGIL_UPDATE_DOCS=1 and commit docs/parameters.md";
+}
+
+TEST(Documentation, CompatibilityPageFollowsTheCode) {
+  const std::string path = std::string(VIGIL_SOURCE_DIR) + "/docs/compatibility.md";
+  if (std::getenv("VIGIL_UPDATE_DOCS") != nullptr) std::ofstream(path) << compatibility_markdown();
+  EXPECT_EQ(page("compatibility.md"), compatibility_markdown())
+      << "run the engine tests with VIGIL_UPDATE_DOCS=1 and commit docs/compatibility.md";
 }
 
 }  // namespace
