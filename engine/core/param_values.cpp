@@ -80,7 +80,7 @@ Eigen::MatrixXd Params::square(std::string_view name, int n) const {
   try {
     return square_matrix(at(name), n, "");
   } catch (const InputError& error) {
-    throw InputError("", std::string(name) + " is " + error.problems().front().detail,
+    throw InputError("/" + std::string(name), std::string(name) + " is " + error.problems().front().detail,
                      error.problems().front().allowed);
   }
 }

@@ -89,8 +89,8 @@ class Params {
   std::string text(std::string_view name) const;
   std::vector<std::string> texts(std::string_view name) const;
   Eigen::VectorXd vector(std::string_view name) const;
-  /// A square matrix of size n from [[..]], a diagonal or a number. Throws InputError (pointer "") when the sizes do
-  /// not fit.
+  /// A square matrix of size n from [[..]], a diagonal or a number. Throws InputError (pointer "/<name>") when the
+  /// sizes do not fit.
   Eigen::MatrixXd square(std::string_view name, int n) const;
   /// A matrix of any shape from [[..]], a diagonal or a number.
   Eigen::MatrixXd matrix(std::string_view name) const;

@@ -28,8 +28,9 @@ class CentralizedEkf final : public Method {
 
   void declare(SignalScope& scope) override { used_slot_ = scope.add(0, "readings_used", "", SignalKind::scalar); }
 
-  void predict(const Eigen::VectorXd& input, FaultReport& /*report*/) override {
+  void predict(const Eigen::VectorXd& input, FaultReport& report) override {
     kalman_predict(state_, *plant_, input, Q_);
+    if (!state_.mean.allFinite()) stop(report);
   }
 
   /// The stacked update, one sensor after another: R is block-diagonal, so conditioning on each in turn at the same
@@ -46,7 +47,7 @@ class CentralizedEkf final : public Method {
       append_whitened(innovation);
       ++used_;
       if (kalman_update(state_, innovation)) continue;
-      if (std::string* text = report.stop(0, "diverged")) *text = "the filter over all sensors is no longer finite";
+      stop(report);
       return;
     }
     const int size = std::min(whitened_size_, kMaxSmall);
@@ -71,6 +72,10 @@ class CentralizedEkf final : public Method {
   void rewire(const Graph& /*graph*/, const std::vector<LinkRates>& /*rates*/) override {}
 
  private:
+  static void stop(FaultReport& report) {
+    if (std::string* text = report.stop(0, "diverged")) *text = "the filter over all sensors is no longer finite";
+  }
+
   bool passes_gate(const Innovation& innovation, const BoundedMatrix& P) {
     if (gate_ <= 0) return true;
     const auto size = static_cast<std::size_t>(innovation.r.size());

@@ -19,8 +19,11 @@ class LocalEkf final : public Method {
   std::unique_ptr<Method> clone() const override { return std::make_unique<LocalEkf>(*this); }
   std::vector<std::string> outputs() const override { return ids_; }
 
-  void predict(const Eigen::VectorXd& input, FaultReport& /*report*/) override {
-    for (Gaussian& state : states_) kalman_predict(state, *plant_, input, Q_);
+  void predict(const Eigen::VectorXd& input, FaultReport& report) override {
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      kalman_predict(states_[i], *plant_, input, Q_);
+      if (!states_[i].mean.allFinite()) stop(i, report);
+    }
   }
 
   void update(const Readings& readings, std::span<const Delivery> /*inbox*/, FaultReport& report) override {
@@ -29,8 +32,7 @@ class LocalEkf final : public Method {
       if (innovations_[i].empty()) continue;
       covariances_[i] = innovation_covariance(innovations_[i], states_[i].covariance);
       if (kalman_update(states_[i], innovations_[i])) continue;
-      if (std::string* text = report.stop(static_cast<int>(i), "diverged"))
-        *text = "node " + ids_[i] + ": the filter is no longer finite";
+      stop(i, report);
       return;
     }
   }
@@ -50,6 +52,11 @@ class LocalEkf final : public Method {
   void rewire(const Graph& /*graph*/, const std::vector<LinkRates>& /*rates*/) override {}
 
  private:
+  void stop(std::size_t i, FaultReport& report) const {
+    if (std::string* text = report.stop(static_cast<int>(i), "diverged"))
+      *text = "node " + ids_[i] + ": the filter is no longer finite";
+  }
+
   std::shared_ptr<const Plant> plant_;
   std::vector<std::shared_ptr<const Sensor>> sensors_;
   std::vector<std::string> ids_;

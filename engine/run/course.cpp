@@ -44,6 +44,7 @@ Course::Course(const World& world)
       past(truth),
       next_(truth) {
   for (const auto& sensor : world.sensors) readings.emplace_back(Eigen::VectorXd::Constant(sensor->size(), kMissing));
+  if (world.controller == nullptr && world.plant->linear()) upcoming.setZero();  // nobody drives it
   sent = readings;
   received = readings;
   for (const auto& sensor : world.sensors) injected.emplace_back(Eigen::VectorXd::Zero(sensor->size()));

@@ -9,7 +9,7 @@
 namespace vigil {
 
 Run::Run(const Scenario& scenario, RunOptions options) : state_(std::make_unique<State>(scenario, std::move(options))) {
-  std::vector<std::string> more = world_warnings(state_->world);
+  std::vector<std::string> more = world_warnings(state_->world, state_->trace != nullptr);
   state_->warnings.insert(state_->warnings.end(), more.begin(), more.end());
 }
 Run::Run(const Run& other) : state_(std::make_unique<State>(*other.state_)) {}

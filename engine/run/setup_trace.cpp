@@ -80,7 +80,8 @@ void Run::State::find_columns() {
   }
   const int inputs = world.plant->inputs();
   if (!trace) {
-    if (inputs > 0 && !world.controller && world.continuous() == nullptr) {
+    // The input of a linear plant that nobody drives is zero.
+    if (inputs > 0 && !world.controller && world.continuous() == nullptr && !world.plant->linear()) {
       throw InputError("/plant/type",
                        "this plant is driven by a recorded input, so the run needs a trace (--trace FILE, or "
                        "\"input\":{\"trace\":id}) or a controller");

@@ -47,9 +47,12 @@ class Report {
   Json make() {
     report_ = {{"scenario", scenario_.id()}, {"tolerance", kVisibilityTolerance}, {"plant", plant()}};
     report_["nodes"] = Json::array();
-    const Json joint_part = joint();
-    for (std::size_t i = 0; i < system_.nodes.size(); ++i) report_["nodes"].push_back(node(i, joint_part));
-    report_["joint"] = joint_part;
+    const Json together = joint();
+    for (std::size_t i = 0; i < system_.nodes.size(); ++i) report_["nodes"].push_back(node(i, together));
+    if (system_.nodes.size() > 1)
+      say(together["observable"] == true ? "good" : (together["detectable"] == false ? "bad" : "note"), "joint",
+          nullptr, together["verdict"]);
+    report_["joint"] = together;
     report_["control"] = control();
     report_["controller"] = controller();
     report_["noise"] = noise();
@@ -83,7 +86,9 @@ class Report {
               {"verdict", judge_.untested()}};
     if (system_.kind == ModelKind::linearised)
       say("note", "plant", nullptr,
-          "the plant or its model is not linear: what follows holds of its linearisation at the initial truth");
+          "the plant is not linear: what follows holds of its linearisation at the initial truth");
+    if (flows)
+      say("note", "plant", nullptr, "what follows holds of the subsystems' linear part, their couplings included");
     if (judge_.modes()) {
       const TimeKind time = system_.time();
       part["poles"] = modes_json(judge_.modes()->all(), *judge_.modes(), time);
@@ -116,17 +121,19 @@ class Report {
   }
 
   Json node(std::size_t i, const Json& together) {
-    const Json id = system_.nodes[i];
-    const Question own{"node " + system_.nodes[i], "sees", "does not see",
-                       ": its own readings alone cannot follow the plant"};
-    Json part{{"id", id}, {"channels", names_of(system_.sensors[i]->channels())}};
+    const std::string id = system_.nodes[i];
+    const bool linear = system_.sensors[i]->linear();
+    const Question own{"node " + id, "sees", "does not see", ": its own readings alone cannot follow the plant"};
+    Json part{{"id", id}, {"channels", names_of(system_.sensors[i]->channels())}, {"linear", linear}};
     part.update(judge_.observes(own, system_.C[i]));
     const bool lost = part["detectable"] == false;
+    const std::string at = linear || system_.kind == ModelKind::linearised ? "" : ", linearised at the initial truth";
     say(part["observable"] == true ? "good" : (lost && together["detectable"] == false ? "warning" : "note"), "node",
-        id, part["verdict"]);
-    if (i + 1 == system_.nodes.size())
-      say(together["observable"] == true ? "good" : (together["detectable"] == false ? "bad" : "note"), "joint",
-          nullptr, together["verdict"]);
+        id, part["verdict"].get<std::string>() + at);
+    if (lost && i == 0 && system_.controller)
+      say("warning", "controller", id,
+          fmt::format(
+              "node {} drives the plant by its estimate, and what it does not see alone it must hear from others", id));
     return part;
   }
 
@@ -229,17 +236,19 @@ Json Report::graph() {
       names.push_back(system_.nodes[i]);
       C.push_back(system_.C[i]);
     }
-    const std::string who =
-        names.size() == 1 ? "node " + names.front() : fmt::format("nodes {}", fmt::join(names, ", "));
-    const Question question{who, "see", "together do not see", ""};
+    const bool single = names.size() == 1;
+    const Question question{single ? "node " + names.front() : fmt::format("nodes {}", fmt::join(names, ", ")),
+                            single ? "sees" : "see", single ? "does not see" : "together do not see", ""};
     const Json own = judge_.observes(question, stacked(C, static_cast<int>(system_.model.A.rows())));
     part["components"].push_back({{"nodes", names}, {"detectable", own["detectable"]}, {"hidden", own["hidden"]}});
     if (own["detectable"] == false) blind += "; " + own["verdict"].get<std::string>();
   }
   const bool none = graph.links().empty() && system_.nodes.size() > 1;
-  std::string verdict = none ? "no node hears of another"
-                             : (parts.size() == 1 ? "the network is connected"
-                                                  : fmt::format("the network falls into {} parts", parts.size()));
+  const bool alone = system_.nodes.size() == 1;
+  std::string verdict = alone  ? "there is one node"
+                        : none ? "no node hears of another"
+                               : (parts.size() == 1 ? "the network is connected"
+                                                    : fmt::format("the network falls into {} parts", parts.size()));
   if (parts.size() > 1) verdict += blind;
   part["verdict"] = verdict;
   const bool harmful = parts.size() > 1 && (!none || !blind.empty());

@@ -53,10 +53,12 @@ bool all_decay(const std::vector<Mode>& modes, const Modes& all) {
   return std::all_of(modes.begin(), modes.end(), [&](const Mode& mode) { return all.fate(mode) == Fate::decays; });
 }
 
-std::vector<std::string> world_warnings(const World& world) {
+std::vector<std::string> world_warnings(const World& world, bool traced) {
   std::vector<std::string> warnings;
   if (world.controller) warnings = world.controller->warnings();
   if (world.continuous() != nullptr || !world.plant->linear()) return warnings;
+  if (world.plant->inputs() > 0 && !world.controller && !traced)
+    warnings.emplace_back("the plant has inputs and nobody drives it: they are zero (no controller, no trace)");
   const LinearModel model = linear_model(*world.plant);
   const auto all = Modes::of(model.A, TimeKind::ticks);
   if (!all || all->stable()) return warnings;

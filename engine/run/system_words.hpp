@@ -18,8 +18,8 @@ std::string modes_text(const std::vector<Mode>& modes, const Modes& all);
 /// Every one of them decays.
 bool all_decay(const std::vector<Mode>& modes, const Modes& all);
 
-/// What whoever starts a run must know of its world: an unstable closed loop; a mode of a linear plant in ticks that
-/// does not decay and that no node sees.
-std::vector<std::string> world_warnings(const World& world);
+/// What whoever starts a run must know of its world: an unstable closed loop; inputs that nobody gives; a mode of a
+/// linear plant in ticks that does not decay and that no node sees. traced: a trace takes the place of the world.
+std::vector<std::string> world_warnings(const World& world, bool traced);
 
 }  // namespace vigil

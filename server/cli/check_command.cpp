@@ -27,7 +27,7 @@ std::string cell(const Json& value) {
 
 std::string mode_rows(const Json& modes, const std::string& measure) {
   if (!modes.is_array()) return {};
-  Rows rows{{"mode", measure, "", "count"}};
+  Rows rows{{"mode", measure, "behaviour", "count"}};
   for (const Json& mode : modes)
     rows.push_back({cell(mode.at("text")), cell(mode.at("size")), cell(mode.at("behaviour")), cell(mode.at("count"))});
   return aligned(rows) + "\n";
@@ -73,12 +73,15 @@ std::string method_lines(const Json& methods) {
          (others.empty() ? "" : "methods that do not\n" + others);
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 std::string text_of(const Json& report) {
   const Json& plant = report.at("plant");
   std::string text = report.at("scenario").get<std::string>() + ": plant " + cell(plant.at("type")) + ", " +
-                     cell(plant.at("kind")) + ", " + std::to_string(plant.at("states").size()) + " states, " +
-                     std::to_string(plant.at("inputs").size()) + " inputs, a tick of " + cell(plant.at("dt")) +
-                     " s\n\n";
+                     cell(plant.at("kind")) + ", " + counted(plant.at("states").size(), "state") + ", " +
+                     counted(plant.at("inputs").size(), "input") + ", a tick of " + cell(plant.at("dt")) + " s\n\n";
   text += mode_rows(plant.at("poles"), cell(plant.at("measure")));
   text += mode_rows(plant.at("continuous_poles"), "real part");
   text += node_rows(report) + noise_rows(report.at("noise"));

@@ -237,7 +237,7 @@ TEST(SparseInput, IsRefusedByTheFieldThatIsWrong) {
       {lane("sdlms", {{"trust", -1}}), "/lanes/sdlms/params/trust"},
       {station({1e-4, 1e-4, 1e-4, 0, 1e-4, 1e-4}), "/nodes/3/sensor/params/R"},
       {station(-1e-4), "/nodes/3/sensor/params/R"},
-      {station({1, 2}), "/nodes/3/sensor/params"},
+      {station({1, 2}), "/nodes/3/sensor/params/R"},
       {{{"time", {{"dt", -0.05}}}}, "/time/dt"},
       {{{"noise", {{"Q", -1}}}}, "/noise/Q"},
       {{{"noise", {{"P0", 0}}}}, "/noise/P0"},

@@ -1,0 +1,227 @@
+// What the report on a system says of systems whose answer is known by hand.
+#include "engine/run/system_report.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "engine/core/registry.hpp"
+#include "engine/methods/method.hpp"
+#include "tests/engine/runs/capture.hpp"
+
+namespace vigil {
+namespace {
+
+Json node(const Json& C, const Json& R = 0.1) {
+  return {{"sensor", {{"type", "linear"}, {"params", {{"C", C}, {"R", R}}}}}};
+}
+
+/// Two nodes, each blind to a mode of the plant that grows; one that decays is nobody's.
+Json blind_alone() {
+  return {{"vigil", 1},
+          {"id", "blind"},
+          {"time", {{"dt", 0.5}, {"steps", 20}}},
+          {"plant",
+           {{"type", "linear"}, {"params", {{"A", {{1.2, 0, 0}, {0, 1.05, 0}, {0, 0, 0.5}}}, {"B", {{1}, {1}, {0}}}}}}},
+          {"nodes", {{"1", node({{1, 0, 0}})}, {"2", node({{0, 1, 0}})}}},
+          {"network", {{"graph", "path"}}},
+          {"noise", {{"Q", {0.1, 0.2, 0.3}}, {"P0", 0}}},
+          {"lanes", {{"all", {{"method", "centralized_ekf"}}}}}};
+}
+
+Json report_of(const Json& document) { return system_report(Scenario::from_json(document)); }
+
+std::vector<std::string> texts(const Json& modes) {
+  std::vector<std::string> result;
+  for (const Json& mode : modes) result.push_back(mode.at("text"));
+  return result;
+}
+
+bool says(const Json& report, const std::string& level, const std::string& words) {
+  for (const Json& verdict : report.at("verdicts")) {
+    if (verdict.at("level") == level && verdict.at("text").get<std::string>().find(words) != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST(SystemReport, EachNodeIsBlindAndTogetherTheySee) {
+  const Json report = report_of(blind_alone());
+  EXPECT_EQ(report.at("plant").at("kind"), "discrete");
+  EXPECT_EQ(texts(report.at("plant").at("poles")), (Texts{"1.2", "1.05", "0.5"}));
+  EXPECT_EQ(report.at("plant").at("stable"), false);
+  const Json &one = report.at("nodes").at(0), &two = report.at("nodes").at(1), &joint = report.at("joint");
+  EXPECT_EQ(texts(one.at("hidden")), (Texts{"1.05", "0.5"}));
+  EXPECT_EQ(texts(two.at("hidden")), (Texts{"1.2", "0.5"}));
+  EXPECT_EQ(one.at("rank"), 1);
+  EXPECT_EQ(one.at("detectable"), false);
+  EXPECT_NE(two.at("verdict").get<std::string>().find("node 2 does not see the modes 1.2 (which grows)"),
+            std::string::npos)
+      << two.at("verdict");
+  EXPECT_EQ(texts(joint.at("hidden")), (Texts{"0.5"}));
+  EXPECT_EQ(joint.at("observable"), false);
+  EXPECT_EQ(joint.at("detectable"), true);
+  EXPECT_EQ(joint.at("rank"), 2);
+  EXPECT_EQ(report.at("control").at("controllable"), false);
+  EXPECT_EQ(report.at("control").at("stabilisable"), true);
+  ASSERT_EQ(report.at("run").at("warnings").size(), 1u) << report.at("run");
+  EXPECT_TRUE(says(report, "warning", "nobody drives it"));
+}
+
+TEST(SystemReport, WhatNobodySeesIsSaidByNameAndWarnsARun) {
+  Json document = blind_alone();
+  document["plant"]["params"] = {{"A", {{1.05, 0.3, 0}, {-0.3, 1.05, 0}, {0, 0, 0.5}}}};
+  for (const char* id : {"1", "2"}) document["nodes"][id] = node({{0, 0, 1}});
+  const Json report = report_of(document);
+  EXPECT_EQ(texts(report.at("joint").at("hidden")), (Texts{"1.05 ± 0.3i"}));
+  EXPECT_EQ(report.at("joint").at("hidden").at(0).at("count"), 2);
+  EXPECT_EQ(report.at("joint").at("hidden").at(0).at("behaviour"), "grows");
+  EXPECT_NEAR(report.at("joint").at("hidden").at(0).at("size").get<double>(), std::hypot(1.05, 0.3), 1e-12);
+  EXPECT_TRUE(says(report, "bad", "all nodes together do not see the mode 1.05 ± 0.3i (which grows)"));
+  EXPECT_EQ(report.at("run").at("starts"), true);
+  vigil::Run run(Scenario::from_json(document), {1, nullptr, {}});
+  ASSERT_EQ(run.warnings().size(), 1u);
+  EXPECT_EQ(run.warnings()[0], "no node sees the mode 1.05 ± 0.3i (which grows): no lane can follow the plant there");
+  test::Capture capture;
+  test::run_to_end(run, capture);
+  EXPECT_EQ(run.tick(), 20);
+}
+
+TEST(SystemReport, OfContinuousTimeHasBothKindsOfPoles) {
+  Json document = blind_alone();
+  document["plant"]["params"] = {{"A", {{0, 1}, {-9, -0.2}}}, {"B", {{0}, {1}}}, {"time", "continuous"}};
+  document["noise"] = {{"Q", {{2, 1}, {1, 2}}}, {"P0", 0}};
+  document["nodes"] = {{"1", node({{1, 0}})}, {"2", node({{0, 1}}, {{0}})}};
+  const Json report = report_of(document), &plant = report.at("plant");
+  EXPECT_EQ(plant.at("kind"), "sampled");
+  const double w = std::sqrt(9 - 0.01), dt = 0.5;
+  EXPECT_NEAR(plant.at("continuous_poles").at(0).at("re").get<double>(), -0.1, 1e-12);
+  EXPECT_NEAR(plant.at("continuous_poles").at(0).at("im").get<double>(), w, 1e-12);
+  EXPECT_NEAR(plant.at("poles").at(0).at("re").get<double>(), std::exp(-0.1 * dt) * std::cos(w * dt), 1e-12);
+  EXPECT_NEAR(plant.at("poles").at(0).at("im").get<double>(), std::exp(-0.1 * dt) * std::sin(w * dt), 1e-12);
+  EXPECT_EQ(plant.at("stable"), true);
+  EXPECT_NEAR(report.at("noise").at("Q").at("smallest").get<double>(), 1, 1e-12);
+  EXPECT_NEAR(report.at("noise").at("Q").at("largest").get<double>(), 3, 1e-12);
+  EXPECT_EQ(report.at("noise").at("P0").at("kind"), "zero");
+  EXPECT_EQ(report.at("noise").at("R").at("2").at("kind"), "zero");
+}
+
+TEST(SystemReport, ANetworkInPartsSaysWhatEachPartMisses) {
+  Json document = blind_alone();
+  document["nodes"]["3"] = node({{0, 1, 0}});
+  document["network"] = {{"graph", "edges"}, {"edges", Json::array({Json::array({"1", "2"})})}};
+  const Json report = report_of(document), &graph = report.at("graph");
+  EXPECT_EQ(graph.at("connected"), false);
+  EXPECT_EQ(graph.at("degrees"), (Json{{"1", 1}, {"2", 1}, {"3", 0}}));
+  ASSERT_EQ(graph.at("components").size(), 2u);
+  EXPECT_EQ(graph.at("components").at(0).at("nodes"), Json::array({"1", "2"}));
+  EXPECT_EQ(graph.at("components").at(0).at("detectable"), true);
+  EXPECT_EQ(graph.at("components").at(1).at("detectable"), false);
+  EXPECT_TRUE(says(report, "warning", "the network falls into 2 parts; node 3 does not see the modes 1.2"));
+}
+
+TEST(SystemReport, TheFeedbackAndWhoDrivesIt) {
+  Json document = blind_alone();
+  document["controller"] = {{"type", "feedback"}, {"params", {{"K", {{0, 0, 0}}}}}};
+  const Json report = report_of(document);
+  EXPECT_TRUE(says(report, "warning", "the closed loop A - B K is not stable: its spectral radius is 1.2"));
+  EXPECT_TRUE(says(report, "warning", "node 1 drives the plant by its estimate"));
+  EXPECT_EQ(report.at("controller").at("design").at("stable"), false);
+  document["controller"] = {{"type", "lqg"}};
+  EXPECT_TRUE(says(report_of(document), "good", "the closed loop is stable"));
+}
+
+// Every method, on a small linear system of two nodes: fits, or one sentence.
+TEST(SystemReport, EveryMethodFitsOrSaysWhyNot) {
+  Json document = blind_alone();
+  document["plant"]["params"] = {{"A", {{0.9, 0.2}, {-0.1, 0.8}}}};
+  document["noise"] = {{"Q", 0.1}, {"P0", 1}};
+  document["nodes"] = {{"1", node({{1, 0}})}, {"2", node({{0, 1}})}};
+  document["lanes"] = {{"no", {{"method", "fusion"}}}};
+  const Json report = report_of(document);
+  EXPECT_EQ(report.at("methods").size(), Registry<MethodMake>::all().size());
+  std::set<std::string> fitting;
+  for (const Json& method : report.at("methods")) {
+    const std::string id = method.at("id");
+    EXPECT_EQ(method.at("fits").get<bool>(), method.at("reason").is_null()) << id;
+    if (method.at("fits") == true) {
+      fitting.insert(id);
+      document["lanes"] = {{"it", {{"method", id}}}};
+      EXPECT_NO_THROW(vigil::Run(Scenario::from_json(document), {1, nullptr, {}})) << id;
+    } else {
+      EXPECT_GT(method.at("reason").get<std::string>().size(), 10u) << id;
+      EXPECT_TRUE(method.at("pointer").get<std::string>().starts_with("/lanes/check/params")) << id;
+      if (id.starts_with("omp")) {
+        EXPECT_EQ(method.at("pointer"), "/lanes/check/params/q") << "other settings would fit";
+      }
+    }
+  }
+  for (const char* id : {"centralized_ekf", "consensus_ekf", "kalman_consensus", "local_ekf"})
+    EXPECT_TRUE(fitting.contains(id)) << id;
+  for (const char* id : {"fusion", "mixed_filter", "zonotope_watermark", "intermediate_observer"})
+    EXPECT_FALSE(fitting.contains(id)) << id;
+  EXPECT_EQ(report.at("run").at("starts"), false);
+  EXPECT_EQ(report.at("run").at("pointer"), "/lanes/no/params");
+  EXPECT_TRUE(says(report, "bad", "a run is refused: "));
+  document["network"] = {{"graph", "centre"}};
+  document["lanes"] = {{"yes", {{"method", "fusion"}}}};
+  EXPECT_EQ(report_of(document).at("run").at("starts"), true);
+}
+
+// Every preset that needs no trace has one; no NaN in it, since it survives the way through text.
+TEST(SystemReport, OfEveryPreset) {
+  for (const std::string& id : Scenario::preset_ids()) {
+    SCOPED_TRACE(id);
+    if (id == "mrclam") {
+      EXPECT_THROW(system_report(Scenario::preset(id)), InputError);
+      continue;
+    }
+    const Json report = system_report(Scenario::preset(id));
+    EXPECT_EQ(Json::parse(report.dump()), report);
+    EXPECT_EQ(report.at("run").at("starts"), true) << report.at("run");
+    EXPECT_TRUE(report.at("run").at("warnings").empty()) << report.at("run");
+    EXPECT_EQ(report.at("joint").at("observable"), true);
+    const bool flows = id.starts_with("observer");
+    EXPECT_EQ(report.at("plant").at("kind") == "continuous", flows);
+  }
+}
+
+TEST(SystemReport, WhatCannotBeMadeIsRefusedWithItsPlace) {
+  Json document = blind_alone();
+  document["nodes"]["2"] = node({{1, 0}});
+  const auto pointer = [](const Json& of) {
+    try {
+      report_of(of);
+    } catch (const InputError& error) {
+      return error.problems().front().pointer;
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(pointer(document), "/nodes/2/sensor/params/C");
+  document = blind_alone();
+  document["nodes"]["1"] = node({{1, 0, 0}}, -1);
+  EXPECT_EQ(pointer(document), "/nodes/1/sensor/params/R");
+  document = blind_alone();
+  document["controller"] = {{"type", "feedback"}, {"params", {{"K", {{1}}}}}};
+  EXPECT_EQ(pointer(document), "/controller/params/K");
+}
+
+TEST(SystemReport, MoreThanSixtyStatesAreNotTested) {
+  Json subsystems = Json::object(), nodes = Json::object();
+  for (int i = 1; i <= 31; ++i) {
+    subsystems[std::to_string(i)] = {{"A", {{-1, 0}, {0, -2}}}, {"C", {{1, 0}, {0, 1}}}};
+    nodes[std::to_string(i)] = {{"sensor", {{"type", "subsystem"}, {"params", {{"number", i}}}}}};
+  }
+  Json document = blind_alone();
+  document["plant"] = {{"type", "interconnected"}, {"params", {{"subsystems", subsystems}}}};
+  document["nodes"] = nodes;
+  document["noise"] = {{"Q", 0}, {"P0", 0}};
+  document["lanes"] = {{"it", {{"method", "intermediate_observer"}}}};
+  const Json report = report_of(document);
+  EXPECT_TRUE(report.at("joint").at("detectable").is_null());
+  EXPECT_EQ(report.at("joint").at("verdict"), "the plant has 62 states; these tests are made up to 60");
+}
+
+}  // namespace
+}  // namespace vigil
