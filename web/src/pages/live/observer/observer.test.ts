@@ -39,7 +39,7 @@ describe('subsystems', () => {
 
   it('bring their panels, whatever the family is called, and no panel of sensors or plain errors', () => {
     const names = panelsOf({ ...run, family: 'other' }, model).map(({ name }) => name);
-    expect(names).toEqual(['state-errors', 'attack-fault', 'methods', 'subsystems', 'design', 'events']);
+    expect(names).toEqual(['state-errors', 'attack-fault', 'methods', 'subsystems', 'design', 'events', 'attacks']);
     const consensus = makeModel(run, signals.filter(({ name }) => !/estimate|attack|fault/.test(name)));
     expect(hasSubsystems(consensus)).toBe(false);
   });

@@ -31,7 +31,7 @@ describe('a fusion centre', () => {
   it('is told by its squared errors, and has its own panels and no plain errors', () => {
     expect(hasCentre(model)).toBe(true);
     expect(hasCentre(makeModel(run, signals.filter(({ name }) => !name.endsWith('.square'))))).toBe(false);
-    expect(panelsOf({ ...run, family: 'other' }, model).map(({ name }) => name)).toEqual(['tracks', 'squares', 'confidentiality', 'guarantee', 'releases', 'messages', 'events']);
+    expect(panelsOf({ ...run, family: 'other' }, model).map(({ name }) => name)).toEqual(['tracks', 'squares', 'confidentiality', 'guarantee', 'releases', 'messages', 'events', 'attacks']);
   });
 
   it('gives its panels room by what else there is', () => {
