@@ -17,7 +17,10 @@ constexpr double kUndamped = 1e-8;
 constexpr double kSame =
     1e-7;  // of the larger: a double eigenvalue comes out as two that differ by the root of rounding
 
-double norm_of(const MatrixXd& A) { return A.norm() > 0 ? A.norm() : 1; }
+double norm_of(const MatrixXd& A) {
+  const double norm = A.stableNorm();
+  return norm > 0 ? norm : 1;
+}
 
 bool same(const std::complex<double>& one, const std::complex<double>& other) {
   return std::abs(one - other) <= kSame * std::max({std::abs(one), std::abs(other), kSame});
@@ -41,9 +44,9 @@ std::vector<Mode> grouped(const Eigen::VectorXcd& eigenvalues, TimeKind time) {
 }
 
 std::optional<Eigen::VectorXcd> eigenvalues_of(const MatrixXd& A) {
-  if (!A.allFinite()) return std::nullopt;
+  if (!std::isfinite(norm_of(A))) return std::nullopt;
   const Eigen::EigenSolver<MatrixXd> solver(A, false);
-  if (solver.info() != Eigen::Success) return std::nullopt;
+  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite()) return std::nullopt;
   return solver.eigenvalues();
 }
 

@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr Eigen::Index kMostStates = 60;  // a report takes seconds at most
-
 Json mode_json(const Mode& mode, const Modes& all, TimeKind time) {
   return {{"re", mode.value.real()},     {"im", mode.value.imag()},
           {"size", size_of(mode, time)}, {"behaviour", to_string(all.fate(mode))},
@@ -25,11 +23,8 @@ Json modes_json(const std::vector<Mode>& modes, const Modes& all, TimeKind time)
   return list;
 }
 
-ModeJudge::ModeJudge(const MatrixXd& A, TimeKind time) : A_(A), time_(time) {
-  if (A.rows() > kMostStates)
-    untested_ = fmt::format("the plant has {} states; these tests are made up to {}", A.rows(), kMostStates);
-  else if (!(modes_ = Modes::of(A, time)))
-    untested_ = "the plant's derivative is not finite at the initial truth, so nothing was tested";
+ModeJudge::ModeJudge(const MatrixXd& A, TimeKind time) : A_(A), time_(time), modes_(Modes::of(A, time)) {
+  if (!modes_) untested_ = "the plant's derivative is not finite at the initial truth, so nothing was tested";
 }
 
 /// A test of C, or of the transpose of B, with its answer in words; null answers where nothing was tested.

@@ -26,8 +26,7 @@ struct Question {
   std::string then;      ///< what follows where a mode that does not decay is hidden
 };
 
-/// Tests against one A. Where A is not finite or has more than 60 states nothing is tested: every member is null, and
-/// the verdict says why.
+/// Tests against one A. Where A is not finite nothing is tested: every member is null, and the verdict says why.
 class ModeJudge {
  public:
   ModeJudge(const Eigen::MatrixXd& A, TimeKind time);
