@@ -84,7 +84,8 @@ class EveryRoute : public SystemTest {
     if (path.ends_with("/import")) return bundle_;
     if (path.ends_with("/fork")) return R"({"k":2})";
     if (path.ends_with("/attacks")) return R"({"type":"dos","on":["link:1-2"]})";
-    if (path.ends_with("/runs") || path.ends_with("/designs") || path.ends_with("/systems/check"))
+    if (path.ends_with("/runs") || path.ends_with("/designs") || path.ends_with("/systems/check") ||
+        path.ends_with("/compatibility"))
       return R"({"scenario":"consensus"})";
     if (method == "put") return document_;
     if (method == "patch") return R"({"note":"x"})";
