@@ -6,7 +6,7 @@
 
 namespace vigil {
 
-/// The report of `vigil check` and POST /systems/check; its members stand in docs/scenario.md. Linear plants are judged
+/// The report of `vigil check` and POST /systems/check; its members stand in docs/api.md. Linear plants are judged
 /// as they are, others linearised at their initial truth, which the report says. Throws InputError where the world
 /// cannot be made (matrices of wrong sizes, a sensor that needs a trace); a lane that does not fit is part of the
 /// report.
