@@ -29,7 +29,7 @@ describe('attacks and lanes', () => {
     assert.equal(rows.length, expected.length);
     expected.forEach((row, i) => {
       assert.equal(rows[i][0], row.attack);
-      answer.lanes.forEach(({ id }, l) => assert.equal(/^\d+$/.test(rows[i][l + 2]), row.cells[id].meets === null, `${row.attack} ${id}`));
+      answer.lanes.forEach(({ id }, l) => assert.equal(/^\d+$/.test(rows[i][l + 3]), row.cells[id].meets === null, `${row.attack} ${id}`));
     });
     await view.page.getByRole('checkbox', { name: 'Also attacks that act nowhere here' }).check();
     await until('all rows', async () => (await table.locator('tbody tr').count()) === answer.rows.length);
