@@ -93,7 +93,7 @@ describe('the parts of a system', () => {
     system = setStates(system, 3);
     expect(at(system, namePaths.states)).toEqual(['p', 'v', 'x3']);
     expect(at(setStates(system, 1), namePaths.states)).toEqual(['p']);
-    expect(at(setInputs(system, 0), namePaths.inputs)).toBeUndefined();
+    expect(at(setInputs(setNames(setInputs(system, 1), namePaths.inputs, 'force'), 0), namePaths.inputs)).toBeUndefined();
     expect(at(setNames(system, namePaths.states, ' '), namePaths.states)).toBeUndefined();
     expect(channelNames(setOutputs(system, '1', 2), '1')).toEqual(['y1', 'y2']);
   });

@@ -19,7 +19,7 @@ const integrator = (): JsonObject =>
     en: 'A double integrator, its position measured',
     zh: '双积分器，仅测量位置',
     time: { dt: 0.1, steps: 300 },
-    plant: { type: 'linear', params: { A: [[0, 1], [0, 0]], B: [[0], [1]], time: 'continuous', states: ['position', 'velocity'], inputs: ['force'] } },
+    plant: { type: 'linear', params: { A: [[0, 1], [0, 0]], time: 'continuous', states: ['position', 'velocity'] } },
     nodes: { '1': sensor([[1, 0]], [[0.04]]) },
     // What white acceleration of density 0.1 does in a tick.
     noise: { Q: [[0.000033, 0.0005], [0.0005, 0.01]], P0: diagonal(2, 0.25) },
