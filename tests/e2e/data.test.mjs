@@ -139,7 +139,7 @@ describe('data of one’s own', () => {
     await readings.getByRole('alert').filter({ hasText: 'wrong.csv has no column k' }).waitFor();
     await choose.setInputFiles(csvFile('whole.csv', text));
     await until('the whole is pushed', async () => (await call(server, 'GET', `/runs/${id}`)).state === 'finished');
-    await readings.getByText('This run is over').waitFor();
+    await page.getByText('This run is over').waitFor();
     const lanes = ['lane.*'];
     const expected = await csvOfRun(server, traced, lanes);
     assert.equal(await csvOfRun(server, id, lanes), expected);

@@ -1,6 +1,6 @@
 /// Which panels a run shows, in which order, and how much room each takes. A panel joins the page by one line here.
 import type { Component } from 'svelte';
-import { isIngest, type RunDetail } from '../../api/types';
+import { isIngest, isLive, type RunDetail } from '../../api/types';
 import BoundPanel from './BoundPanel.svelte';
 import DensityPanel from './density/DensityPanel.svelte';
 import DetectorPanel from './detector/DetectorPanel.svelte';
@@ -63,7 +63,7 @@ const needsNetwork = (run: RunDetail, model: RunModel): boolean => touched(model
 const anyLane = (model: RunModel, has: (lane: RunModel['lanes'][number]) => unknown): boolean => model.lanes.some(has);
 
 export const panels: readonly PanelEntry[] = [
-  { name: 'readings', load: () => import('./ingest/ReadingsPanel.svelte'), wide: [12, 1], middle: [12, 1], narrow: 420, applies: (run) => isIngest(run.input) },
+  { name: 'readings', load: () => import('./ingest/ReadingsPanel.svelte'), wide: [12, 1], middle: [12, 1], narrow: 420, applies: (run) => isIngest(run.input) && isLive(run.state) },
   { name: 'tracks', load: () => import('./privacy/TracksPanel.svelte'), wide: [5, 1], middle: [12, 1], narrow: 400, applies: centred, sized: sizeIn('tracks') },
   { name: 'squares', load: () => import('./privacy/SquaresPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 420, applies: centred, sized: sizeIn('squares') },
   { name: 'confidentiality', load: () => import('./privacy/ConfidentialityPanel.svelte'), wide: [7, 1], middle: [12, 1], narrow: 560, applies: centred },
