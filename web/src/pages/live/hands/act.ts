@@ -5,9 +5,8 @@ import { navigate } from '../../../router/router.svelte';
 import { notify } from '../../../ui/notices.svelte';
 import type { LiveContext } from '../context';
 import type { Proposal, Times } from './drag';
-import { sizeAt, type Place } from './hands.svelte';
-import { fittingParams, type AttackKind } from './kinds';
-import { verbOf } from './verbs';
+import type { Place } from './hands.svelte';
+import { verbOf, type Offer } from './verbs';
 import { t } from './words';
 
 export function placeWord({ kind, id }: Pick<Place, 'kind' | 'id'>): string {
@@ -21,16 +20,15 @@ export function forkTick({ session, view }: LiveContext): number {
 }
 
 /** Begins with the usual parameters: now, or in a fork where the run has ended. What is refused opens the dialog. */
-export async function startAt(context: LiveContext, place: Place, kind: AttackKind): Promise<void> {
+export async function startAt(context: LiveContext, place: Place, { kind, params }: Pick<Offer, 'kind' | 'params'>): Promise<void> {
   const { session } = context;
-  const params = fittingParams(kind, sizeAt(session.run!, session.model!.signals, place));
   const attack = { type: kind.id, on: [place.on], params };
   try {
     if (!session.live) {
       const k = forkTick(context);
       const made = await api.fork(session.id, k, { adversary: { [`hand_${k + 1}`]: { ...attack, from: k + 1 } } });
       notify(t('forked', { id: made.id, place: placeWord(place), k: k + 1 }));
-      navigate(`/live/${made.id}`);
+      navigate(`/live/${made.id}?with=${session.id}`);
       return;
     }
     const made = await api.attack(session.id, attack);
@@ -57,7 +55,7 @@ export async function move({ session }: LiveContext, proposal: Proposal, times: 
     if (proposal.kind === 'fork') {
       const made = await api.fork(session.id, proposal.k, proposal.patch);
       notify(t('move_done', { id: made.id }));
-      navigate(`/live/${made.id}`);
+      navigate(`/live/${made.id}?with=${session.id}`);
       return true;
     }
     // The new one first: if it is refused, the old one stays.

@@ -38,8 +38,10 @@ export function reachedNodes(span: AttackSpan, model: Pick<RunModel, 'links'>): 
 
 /** Outputs of a lane that a detector judges. */
 export function judgedOutputs(model: Pick<RunModel, 'signals'>, lane: string): string[] {
-  const found = model.signals.map(({ name }) => name).filter((name) => name.startsWith(`lane.${lane}.`) && name.endsWith('.alarm'));
-  return found.map((name) => name.slice(`lane.${lane}.`.length, -'.alarm'.length));
+  const prefix = `lane.${lane}.`;
+  const names = new Set(model.signals.map(({ name }) => name).filter((name) => name.startsWith(prefix)));
+  // What only says that something was reconstructed has no threshold: it is no detector, and marks no alarms.
+  return [...names].filter((name) => name.endsWith('.alarm') && names.has(`${name.slice(0, -'alarm'.length)}threshold`)).map((name) => name.slice(prefix.length, -'.alarm'.length));
 }
 
 /** The first alarm at or after `from` and before `end`; `on`: since when one was on at `from` already. */

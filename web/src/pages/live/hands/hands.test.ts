@@ -2,11 +2,12 @@ import { describe, expect, it } from 'vitest';
 import type { Mark } from '../../../api/types';
 import { noticesOf, reachedNodes } from './delays';
 import { dragged, gripAt, proposalFor } from './drag';
-import { beginsAtOnce, fittingParams, kindsOf } from './kinds';
+import { beginsAtOnce, fittingParams, kindsOf, resized } from './kinds';
 import { between, distance, hit, nodePlaces, receiverHalf, type Target } from './layout';
 import { pictureOf, pictureTargets } from './network';
 import { barRows, covers, placeText, plannedEnd, spansOf, type AttackSpan } from './spans';
 import { always, sentTimes } from './times';
+import { offersAt } from './verbs';
 
 const attack = (k: number, edge: 'begin' | 'end', id: string): Mark => ({ k, type: 'attack', edge, id, code: 'dos' });
 const alarm = (k: number, edge: 'begin' | 'end', lane = 'a', node = '1'): Mark => ({ k, type: 'alarm', edge, lane, node, code: 'detection' });
@@ -76,6 +77,18 @@ describe('attacks that the server knows', () => {
     expect(fittingParams(kinds[0]!, 0)).toEqual({});
   });
 
+  it('are offered as the server’s examples have them, in the order of what one does most', () => {
+    const row = (attack: string, params: Record<string, unknown> | null, reason: string | null) => ({ attack, title: { en: '', zh: '' }, channel: 'sensor' as const, place: 'sensor:1', params, reason, cells: {} });
+    const told = offersAt(kinds, 'sensor', [row('ramp', { slope: [1, 2], limit: 3 }, null), row('new', null, 'nobody hears it')], 3);
+    expect(told.map(({ kind, atOnce, params, reason }) => [kind.id, atOnce, params, reason])).toEqual([
+      ['bias', true, {}, null],
+      ['ramp', true, { slope: [1, 2, 2], limit: 3 }, null],
+      ['new', true, {}, 'nobody hears it'],
+    ]);
+    expect(offersAt(kinds, 'link', [], 1).map(({ kind, params }) => [kind.id, params])).toEqual([['bias', { vector: [15] }], ['new', {}]]);
+    expect(resized({ pieces: [[1, 2]], vector: [] }, 4)).toEqual({ pieces: [[1, 2]], vector: [] });
+  });
+
   it('are sent with the times that were given', () => {
     expect(sentTimes(always)).toEqual({});
     expect(sentTimes({ from: 5, to: 9, bursts: { every: 4, for: 1 }, budget: 2 })).toEqual({ from: 5, to: 9, schedule: { every: 4, for: 1, budget: 2 } });
@@ -135,7 +148,7 @@ describe('the delay until a lane notices', () => {
   const model = {
     lanes: ['a', 'b', 'c', 'd'].map((id) => ({ id, adversary: id !== 'd' })),
     links: [{ id: '1-2', from: '1', to: '2', state: null }],
-    signals: ['lane.a.1.alarm', 'lane.a.2.alarm', 'lane.b.fused.alarm', 'lane.d.1.alarm'].map((name) => ({ name })),
+    signals: ['lane.a.1', 'lane.a.2', 'lane.b.fused', 'lane.d.1'].flatMap((one) => [{ name: `${one}.alarm` }, { name: `${one}.threshold` }]).concat({ name: 'lane.c.1.alarm' }),
   } as unknown as Parameters<typeof noticesOf>[1];
   const span = (on: string[], from: number, to: number | null): AttackSpan => ({ id: 'x', entry: { type: 'dos', on }, command: null, from, to, begun: true, active: to === null, acted: [{ from, to }] });
   const of = (one: AttackSpan, list: Mark[], head = 60, held = 0): unknown[] => noticesOf(one, model, list, head, held).map(({ notice }) => notice);

@@ -1,6 +1,7 @@
 /// The attacks that the server knows, and the places each acts on, as GET /methods tells them.
 import { api } from '../../../api/client';
-import type { Localised } from '../../../api/types';
+import { askCompatibility, type Row } from '../../../api/compatibility';
+import type { Localised, RunDetail } from '../../../api/types';
 import { placeKinds, type PlaceKind } from '../attack_places';
 
 interface AttackParameter {
@@ -46,6 +47,15 @@ export function attackKinds(): Promise<AttackKind[]> {
   return asked;
 }
 
+const examples = new Map<string, Promise<readonly Row[]>>();
+
+/** What the server says of a run's attacks on its kinds of places, with an example of each. Empty where it cannot say. */
+export function examplesOf(run: Pick<RunDetail, 'id' | 'document'>): Promise<readonly Row[]> {
+  const known = examples.get(run.id) ?? askCompatibility(run.document).then(({ rows }) => rows, () => []);
+  examples.set(run.id, known);
+  return known;
+}
+
 /** Whether it can begin without a word: nothing that it needs is without a default. */
 export function beginsAtOnce(kind: AttackKind): boolean {
   return kind.parameters.every(({ required, default: usual }) => !required || usual !== null);
@@ -59,4 +69,13 @@ export function fittingParams(kind: AttackKind, size: number): Record<string, un
     params[name] = Array.from({ length: size }, (_, i) => Number(usual[i] ?? 0));
   }
   return params;
+}
+
+/** An example's parameters for a place that may take vectors of another size: its last entry goes on. */
+export function resized(params: Readonly<Record<string, unknown>>, size: number): Record<string, unknown> {
+  const fit = (value: unknown): unknown => {
+    if (size < 1 || !Array.isArray(value) || !value.length || !value.every((one) => typeof one === 'number')) return value;
+    return Array.from({ length: size }, (_, i) => value[Math.min(i, value.length - 1)] as number);
+  };
+  return Object.fromEntries(Object.entries(params).map(([name, value]) => [name, fit(value)]));
 }
