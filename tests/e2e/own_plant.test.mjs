@@ -60,10 +60,10 @@ describe('a linear plant of one’s own', () => {
     await said(state(page), /It lacks a lane/);
     await lane(page, 'local_ekf').check();
     await button(page, 'Add a lane of local_ekf spared by attacks').click();
-    await page.getByRole('combobox', { name: 'Type of the new attack' }).selectOption('freeze');
-    await button(page, 'Add an attack').click();
-    await page.locator('[id="f/adversary/freeze"] summary').first().click();
-    await until('the attack is on the only sensor', async () => /sensor:1/.test(await page.locator('[id="f/adversary/freeze/on"]').inputValue()));
+    await page.getByText('Attacks and lanes').click();
+    await page.getByRole('button', { name: /bias.*sensor:1/ }).first().click();
+    await page.locator('[id="f/adversary/bias"] summary').first().click();
+    await until('the attack is on the only sensor', async () => /sensor:1/.test(await page.locator('[id="f/adversary/bias/on"]').inputValue()));
     await said(state(page), /It would start/);
     await said(page.locator('[data-node="1"]').first(), /rank 3 of 3/);
     await button(page, 'Run it').click();
