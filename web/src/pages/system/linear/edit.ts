@@ -28,7 +28,8 @@ export function setStates(document: JsonObject, count: number): JsonObject {
 
 export function setInputs(document: JsonObject, count: number): JsonObject {
   const m = within(count, 0);
-  return withNames(withController(put(document, places.B, m > 0 ? resized(cellsAt(document, places.B), sizesOf(document).n, m) : undefined)));
+  if (m === 0) return withNames(put(put(document, places.B, undefined), ['controller'], { type: 'none' }));
+  return withNames(withController(put(document, places.B, resized(cellsAt(document, places.B), sizesOf(document).n, m))));
 }
 
 export function setOutputs(document: JsonObject, id: string, count: number): JsonObject {

@@ -114,6 +114,7 @@ describe('the parts of a system', () => {
     const bounded = setBounded(begun('chain'), true);
     expect(shape(cellsAt(bounded, places.Mw))).toBe('4x4');
     expect(setBounded(bounded, false)).toEqual(begun('chain'));
+    expect(setInputs(begun('feedback'), 0).controller).toEqual({ type: 'none' });
     expect(setController(begun('feedback'), 'none').controller).toEqual({ type: 'none' });
     let system = addLaneOf(addLaneOf(begun(), 'local_ekf'), 'local_ekf', true);
     expect(lanesOf(system, 'local_ekf')).toEqual(['alone', 'local_ekf', 'local_ekf_clean']);

@@ -89,6 +89,15 @@ describe('the form of a linear system', () => {
     await waitFor(async () => expect(at(await documentIn(location.hash), ['plant', 'params', 'A'])).toEqual([[7, 1], [0, 0]]));
   });
 
+  it('loses nothing on the way to the other kind and back', async () => {
+    page();
+    await userEvent.type(cell('A, row 1, column 1'), '{Backspace}7');
+    await userEvent.click(screen.getByRole('radio', { name: 'Interconnected subsystems' }));
+    await screen.findByRole('textbox', { name: 'A of subsystem 1, row 1, column 1' });
+    await userEvent.click(screen.getByRole('radio', { name: 'Linear plant with sensors' }));
+    await waitFor(() => expect(cell('A, row 1, column 1').value).toBe('7'));
+  });
+
   it('opens a link of either kind, and says it where one cannot be read', async () => {
     const chain = put(opened(start('chain'))!, ['time', 'dt'], 0.25);
     const document = withView(chain, chain);

@@ -11,6 +11,7 @@ export const en = {
   continuous: 'continuous: x′ = A x + B u, u held for a tick',
   dt: 'Tick, s',
   steps: 'Ticks',
+  endless: 'no end',
   size_n: 'states',
   size_m: 'inputs',
   size_p: 'outputs',

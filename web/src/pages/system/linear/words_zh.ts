@@ -14,6 +14,7 @@ export const zh: Translation<typeof en> = {
   continuous: '连续：x′ = A x + B u，u 在一步内保持不变',
   dt: '步长，s',
   steps: '步数',
+  endless: '无终点',
   size_n: '状态',
   size_m: '输入',
   size_p: '输出',
