@@ -83,6 +83,8 @@ TEST_F(Queries, EveryFormFindsWhatItSays) {
       {"id>2", {3, 4}},
       {"id>=2 id<4", {2, 3}},
       {"seed:7", {4}},
+      {"parent:null", {1, 2, 3, 4}},
+      {"parent:1", {}},
       {"seed:18446744073709551615", {3}},
       {"seed:2..", {2, 4}},
       {"seed:0..2", {1, 2}},

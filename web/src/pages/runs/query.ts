@@ -1,7 +1,7 @@
 /// What the page knows of the query language: enough to help writing it. The server alone decides what it means.
 
 /** Fields that every run has; metrics and lanes come with the runs themselves. */
-export const queryFields = ['id', 'scenario', 'family', 'state', 'seed', 'tags', 'note', 'created', 'started', 'ended', 'error'] as const;
+export const queryFields = ['id', 'scenario', 'family', 'state', 'seed', 'tags', 'note', 'created', 'started', 'ended', 'error', 'parent'] as const;
 
 /** A value as the query language wants it: quoted where it is more than one plain word. */
 export function quoted(value: string): string {
