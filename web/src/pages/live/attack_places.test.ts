@@ -22,6 +22,7 @@ describe('places of an attack by hand', () => {
     expect(placesOf(areas, 'actuator')).toEqual(['1']);
     expect(usualKind(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), areas)).toBe('actuator');
     expect(usualKind(run({}), areas)).toBe('actuator');
+    expect(usualKind({ ...run({}), family: 'replay' }, areas)).toBe('sensor');
     expect(usualKind(run({ r: { type: 'bias', on: ['sensor:1'] } }), areas)).toBe('sensor');
     expect(typesAt(['bias', 'dos', 'waveform'], 'actuator', known)).toEqual(['bias', 'waveform']);
     expect(usualType(run({ w1: { type: 'waveform', on: ['actuator:1'] } }), ['bias', 'waveform'], 'actuator')).toBe('bias');

@@ -36,12 +36,14 @@ function actsOn(attack: Attacks[string], kind: PlaceKind): boolean {
   return Array.isArray(attack?.on) && attack.on.some((place) => String(place).startsWith(`${kind}:`));
 }
 
-/** What the scenario's own adversary acts on; where it has none, links before actuators before sensors. */
-export function usualKind(run: Pick<RunDetail, 'document'> | null, model: Places | null): PlaceKind {
+/** What the scenario's own adversary acts on; where it has none, links before actuators before sensors: what detectors listen to comes before what moves the plant. */
+export function usualKind(run: (Pick<RunDetail, 'document'> & Partial<Pick<RunDetail, 'family' | 'view'>>) | null, model: Places | null): PlaceKind {
   const attacks = Object.values((run?.document?.adversary ?? {}) as Attacks);
   const own = placeKinds.find((kind) => attacks.some((attack) => actsOn(attack, kind)));
   if (own && placesOf(model, own).length) return own;
-  return placeKinds.find((kind) => placesOf(model, kind).length) ?? 'link';
+  const detects = run?.family === 'replay' || run?.view?.detector === true;
+  const order: readonly PlaceKind[] = detects ? ['link', 'sensor', 'actuator'] : placeKinds;
+  return order.find((kind) => placesOf(model, kind).length) ?? 'link';
 }
 
 /** Of the types that act on such places the one that the scenario makes there itself, else the usual one. */
