@@ -185,8 +185,8 @@ TEST(Settings, AreRefusedAtTheirPointer) {
       {{{"phibar", 1.5}}, "/phibar"},
       {{{"phibar", 0.7}, {"gammabar", 0.4}}, "/gammabar"},
       {{{"delta", 1.9}}, "/delta"},
-      {{{"U", {1, 2}}}, ""},
-      {{{"V", Json::parse("[[1,0,0],[0,1,0],[0,0,1]]")}}, ""},
+      {{{"U", {1, 2}}}, "/U"},
+      {{{"V", Json::parse("[[1,0,0],[0,1,0],[0,0,1]]")}}, "/V"},
       {{{"tua", 0.1}}, "/tua"},
       {{{"tau", "0.1"}}, "/tau"},
   };

@@ -117,7 +117,7 @@ TEST(Lqg, RefusesWhatItCannotStabilise) {
       {{{0.9, 0}, {0, 1}}, {{1}, {1}}, {{"reference", "step"}}, "/reference", "an eigenvalue at 1"},
       {unit, unit, {{"Rc", 0}}, "/Rc", "positive definite"},
       {unit, unit, {{"Qc", {{1, 2}, {2, 1}}}}, "/Qc", "negative eigenvalue -1"},
-      {unit, unit, {{"Qc", {1, 1, 1}}}, "", "2"},
+      {unit, unit, {{"Qc", {1, 1, 1}}}, "/Qc", "2"},
       {{{1, 0}, {0, 0.5}}, {{1}, {1}}, {{"Qc", 0}}, "/Qc", "does not weigh a mode on the unit circle"}};
   for (const Refused& row : table) {
     try {

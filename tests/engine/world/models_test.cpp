@@ -164,9 +164,9 @@ TEST(Wrap, MapsToTheHalfOpenInterval) {
 
 TEST(Models, RefuseWhatDoesNotFit) {
   const auto plant = plant_of("unicycle");
-  for (const char* pointer : {"", "/position"}) {
+  for (const std::string pointer : {"/R", "/position"}) {
     try {
-      if (*pointer == 0) {
+      if (pointer == "/R") {
         sensor_of("range_bearing", *plant, {{"position", {0, 0}}, {"R", {1, 2, 3}}});
       } else {
         sensor_of("range_bearing", *plant, {{"position", nullptr}});
