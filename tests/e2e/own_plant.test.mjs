@@ -86,8 +86,7 @@ describe('a linear plant of one’s own', () => {
     const { page } = view;
     await paste(page, cell(page, 'A', 1, 1), '1.1\t0\n0\t0.5');
     await paste(page, cell(page, 'C of node 1', 1, 1), '[0, 1]\n');
-    await cell(page, 'C of node 1', 1, 1).fill('0');
-    await cell(page, 'C of node 1', 1, 2).fill('1');
+    await until('C is there', async () => (await cell(page, 'C of node 1', 1, 2).inputValue()) === '1');
     await said(page.locator('#linear-nodes'), /1\.1/);
     await said(page.locator('[data-node="1"]').first(), /rank 1 of 2; not seen: 1\.1/);
     await page.getByText(/\d+ methods do not fit/).click();
