@@ -200,6 +200,32 @@ describe('live hands', () => {
     });
   });
 
+  test('begins an attack anew that has not begun, at its new time', async () => {
+    const view = await openPage(browser, server);
+    const { page } = view;
+    const run = await call(server, 'POST', '/runs', { scenario: 'sparse', seed: 3, pace: 5 });
+    await until('it has begun', async () => (await call(server, 'GET', `/runs/${run.id}`)).progress.k > 2);
+    await call(server, 'PATCH', `/runs/${run.id}`, { state: 'paused' });
+    await view.goto(`/live/${run.id}`);
+    const bar = page.locator('[data-bar="node1"]');
+    await bar.focus();
+    await bar.press('ArrowRight');
+    await until('it is to begin a tick later', async () => (await bar.getAttribute('aria-valuetext')) === 'k = 181 until stopped');
+    await page.getByRole('button', { name: 'Start it anew from k = 181' }).waitFor();
+    await bar.press('Enter');
+    const commands = await until('the run has both commands', async () => {
+      const now = await call(server, 'GET', `/runs/${run.id}`);
+      return now.commands.length === 2 ? now.commands.map(({ body }) => body) : null;
+    });
+    const { type, on, from } = commands[0].attack;
+    assert.deepEqual({ type, on, from }, { type: 'radar_fdi', on: ['sensor:1'], from: 181 });
+    assert.equal(commands[1].end_attack, 'node1');
+    await until('its old bar is gone', async () => (await bar.count()) === 0);
+    await page.locator(`[data-bar="${commands[0].attack.id}"]`).waitFor();
+    await view.close();
+    await call(server, 'DELETE', `/runs/${run.id}`);
+  });
+
   test('changes the threshold of a detector while the run goes on', async () => {
     const view = await openPage(browser, server);
     const { page } = view;
