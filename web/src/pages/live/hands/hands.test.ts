@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { Mark } from '../../../api/types';
 import { noticesOf, reachedNodes } from './delays';
 import { dragged, gripAt, proposalFor } from './drag';
-import { beginsAtOnce, fittingParams, kindsOf, resized } from './kinds';
+import { beginsAtOnce, fittingParams, judgedByDocument, kindsOf, resized } from './kinds';
 import { between, distance, hit, nodePlaces, receiverHalf, type Target } from './layout';
 import { pictureOf, pictureTargets } from './network';
 import { barRows, covers, placeText, plannedEnd, spansOf, type AttackSpan } from './spans';
@@ -87,6 +87,12 @@ describe('attacks that the server knows', () => {
     ]);
     expect(offersAt(kinds, 'link', [], 1).map(({ kind, params }) => [kind.id, params])).toEqual([['bias', { vector: [15] }], ['new', {}]]);
     expect(resized({ pieces: [[1, 2]], vector: [] }, 4)).toEqual({ pieces: [[1, 2]], vector: [] });
+  });
+
+  it('are judged by a document that says all of the run', () => {
+    expect(judgedByDocument({ input: 'simulate', design: { a: { eps: 1 } } })).toBe(true);
+    expect(judgedByDocument({ input: { trace: '3' }, design: {} })).toBe(false);
+    expect(judgedByDocument({ input: 'simulate', design: { a: { solver: 'DSDP' } } })).toBe(false);
   });
 
   it('are sent with the times that were given', () => {

@@ -49,8 +49,14 @@ export function attackKinds(): Promise<AttackKind[]> {
 
 const examples = new Map<string, Promise<readonly Row[]>>();
 
+/** Recorded input and gains belong to a run, not to its document: without them the server cannot judge that. */
+export function judgedByDocument({ input, design }: Pick<RunDetail, 'input' | 'design'>): boolean {
+  return input === 'simulate' && !Object.values(design ?? {}).some((one) => 'solver' in one);
+}
+
 /** What the server says of a run's attacks on its kinds of places, with an example of each. Empty where it cannot say. */
-export function examplesOf(run: Pick<RunDetail, 'id' | 'document'>): Promise<readonly Row[]> {
+export function examplesOf(run: Pick<RunDetail, 'id' | 'document' | 'input' | 'design'>): Promise<readonly Row[]> {
+  if (!judgedByDocument(run)) return Promise.resolve([]);
   const known = examples.get(run.id) ?? askCompatibility(run.document).then(({ rows }) => rows, () => []);
   examples.set(run.id, known);
   return known;
