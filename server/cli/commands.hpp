@@ -26,6 +26,7 @@ void add_serve(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_campaign(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_papers(CLI::App& app, Action& action);
 void add_synthesize(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_compatibility(CLI::App& app, Action& action);
