@@ -43,4 +43,28 @@ double BoundRatio::max() const {
   return worst;
 }
 
+void BoundRatio::save(ByteWriter& out) const {
+  out.integer(states_);
+  out.word(counts_.size());
+  for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
+    out.integer(counts_[cell]);
+    for (const double value : outer_[cell].reshaped()) out.number(value);
+    for (const double value : bounds_[cell].reshaped()) out.number(value);
+  }
+}
+
+void BoundRatio::load(ByteReader& in) {
+  states_ = static_cast<int>(in.integer());
+  if (states_ < 0 || states_ > 10'000) throw std::runtime_error("Saved bounds have an impossible size.");
+  const std::size_t cells = in.count(8 + 16 * static_cast<std::size_t>(states_) * static_cast<std::size_t>(states_));
+  counts_.assign(cells, 0);
+  outer_.assign(cells, Eigen::MatrixXd(states_, states_));
+  bounds_ = outer_;
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    counts_[cell] = in.integer();
+    for (double& value : outer_[cell].reshaped()) value = in.number();
+    for (double& value : bounds_[cell].reshaped()) value = in.number();
+  }
+}
+
 }  // namespace vigil

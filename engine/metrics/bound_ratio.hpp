@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/bytes.hpp"
+
 namespace vigil {
 
 /// Of one lane and one run: e e' and Phi at every tick and output. Filled while the run is stepped.
@@ -24,6 +26,9 @@ class BoundRatio {
   /// The largest over ticks and outputs of lambda_max(L^-1 P L^-T), L L' = mean bound, P = mean of e e' (no mean
   /// removed). Infinity where a mean bound is not positive definite: never passed.
   double max() const;
+
+  void save(ByteWriter& out) const;
+  void load(ByteReader& in);
 
  private:
   int states_ = 0;

@@ -4,16 +4,16 @@
 
 namespace vigil {
 
-void DetectionScore::note(std::int64_t k, bool attacked, bool alarm, bool twin_alarm) {
+DetectionScore::Counted DetectionScore::note(std::int64_t k, bool attacked, bool alarm, bool twin_alarm) {
   ++ticks_;
   right_ += alarm == attacked ? 1 : 0;
   if (!attacked) {
     run_ = 0;
     const bool in_tail = last_attacked_ >= 0 && k <= last_attacked_ + tail_;
-    if (k < from_ || in_tail) return;
+    if (k < from_ || in_tail) return Counted::neither;
     ++quiet_;
     false_alarms_ += alarm ? 1 : 0;
-    return;
+    return Counted::clean;
   }
   if (first_attacked_ < 0) first_attacked_ = k;
   last_attacked_ = k;
@@ -23,6 +23,7 @@ void DetectionScore::note(std::int64_t k, bool attacked, bool alarm, bool twin_a
   if (alarm && first_hit_ < 0) first_hit_ = k;
   run_ = alarm ? run_ + 1 : 0;
   longest_ = std::max(longest_, run_);
+  return Counted::attacked;
 }
 
 void DetectionScore::append_metrics(const std::string& lane, const std::string& node, bool twin,

@@ -12,11 +12,13 @@ namespace vigil {
 /// Sums over one output's ticks. A value: copies are forks.
 class DetectionScore {
  public:
+  enum class Counted { neither, clean, attacked };  ///< which rate a tick counts in
+
   /// from: the first tick that may count as a false alarm. tail: ticks after an attack that count as neither.
   DetectionScore(std::int64_t from, int tail) : from_(from), tail_(tail) {}
 
   /// attacked: the readings of tick k were. twin_alarm: of the same lane on the same draws without any attack.
-  void note(std::int64_t k, bool attacked, bool alarm, bool twin_alarm);
+  Counted note(std::int64_t k, bool attacked, bool alarm, bool twin_alarm);
 
   /// fpr, accuracy, and where there was an attack tpr, event, event_without_attack (if `twin`), delay (if any),
   /// longest.

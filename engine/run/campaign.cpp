@@ -3,141 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <tuple>
 
-#include "engine/metrics/bound_ratio.hpp"
-#include "engine/metrics/confidentiality_score.hpp"
-#include "engine/run/state.hpp"
+#include "engine/run/campaign_state.hpp"
 
 namespace vigil {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-class NullSink final : public Sink {
- public:
-  void frame(const Frame& /*frame*/) override {}
-  void mark(const Mark& /*mark*/) override {}
-};
-
-bool pooled(const std::string& name) { return name.starts_with("rmse_") || name.starts_with("rms_"); }
-
-/// The values of one metric over trials, in trial order. Kept whole: medians need them, and a campaign's are few.
-struct Series {
-  MetricValue key;
-  std::vector<double> values;
-};
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-/// Standard error of the mean; NaN with fewer than two values.
-double error_of(const std::vector<double>& values, double mean) {
-  if (values.size() < 2) return kNone;
-  double square = 0;
-  for (const double value : values) square += (value - mean) * (value - mean);
-  const auto n = static_cast<double>(values.size());
-  return std::sqrt(square / (n - 1) / n);
-}
-
-MetricSummary summarise(const Series& series) {
-  MetricSummary summary;
-  summary.key = series.key;
-  summary.n = static_cast<std::int64_t>(series.values.size());
-  if (series.values.empty()) {
-    summary.mean = summary.se = summary.median = summary.min = summary.max = kNone;
-    return summary;
-  }
-  std::vector<double> squares = series.values;
-  const bool root = pooled(series.key.name);
-  if (root) {
-    for (double& value : squares) value *= value;
-  }
-  const double mean = mean_of(squares);
-  const double error = error_of(squares, mean);
-  summary.mean = root ? std::sqrt(mean) : mean;
-  summary.se = root ? error / (2 * summary.mean) : error;  // delta method: d sqrt(m) = dm / (2 sqrt(m))
-  std::vector<double> sorted = series.values;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t half = sorted.size() / 2;
-  summary.median = sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
-  summary.min = sorted.front();
-  summary.max = sorted.back();
-  return summary;
-}
-
-/// Above and below of a log-ratio, in trial order.
-struct RatioPool {
-  std::vector<double> above, below;
-};
-
-/// log2 of the ratio of means; its standard error by the delta method, with the covariance of the two.
-void pool_ratio(const RatioPool& pool, MetricSummary& summary) {
-  const double above = mean_of(pool.above), below = mean_of(pool.below);
-  std::vector<double> relative;  // of which the log of the ratio is the mean, to first order
-  for (std::size_t i = 0; i < pool.above.size(); ++i) relative.push_back(pool.above[i] / above - pool.below[i] / below);
-  summary.mean = std::log2(above / below);
-  summary.se = error_of(relative, mean_of(relative)) / std::log(2.0);
-}
-
-}  // namespace
-
-struct TrialResult::Extra {
-  std::vector<BoundRecord> bounds;
-  std::vector<RatioRecord> ratios;
-};
-
-TrialResult::TrialResult() = default;
-TrialResult::TrialResult(TrialResult&&) noexcept = default;
-TrialResult& TrialResult::operator=(TrialResult&&) noexcept = default;
-TrialResult::~TrialResult() = default;
-
-TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace,
-                      const Json& designs) {
-  Run run(scenario, {seed, std::move(trace), {}, designs});
-  if (!run.steps())
-    throw InputError("/time/steps", "steps is null: a trial of a campaign must end by itself", "a whole number");
-  NullSink sink;
-  while (!run.done()) run.step(sink);
-  TrialResult result;
-  result.seed = seed;
-  result.metrics = run.metrics();
-  result.faults = run.faults();
-  result.warnings = run.warnings();
-  result.design = run.design();
-  result.ticks = run.tick();
-  result.extra = std::make_unique<TrialResult::Extra>();
-  for (Lane& lane : TrialAccess::state(run).lanes) {
-    result.extra->bounds.push_back(lane.take_record());
-    if (const FusionSide* side = lane.fusion_side()) side->append_ratios(result.extra->ratios);
-  }
-  return result;
-}
-
-struct CampaignTable::State {
-  using Key = std::tuple<std::string, std::string, std::string, std::string>;
-  std::map<Key, std::size_t> places;
-  std::vector<Series> series;  ///< in the order first seen
-  std::map<std::string, BoundRatio> bounds;
-  std::map<Key, RatioPool> ratios;  ///< of the series with the same key
-  std::vector<std::string> lanes;   ///< with a bound record, in order
-  std::int64_t trials = 0;
-};
 
 CampaignTable::CampaignTable() : state_(std::make_unique<State>()) {}
+CampaignTable::CampaignTable(CampaignTable&&) noexcept = default;
+CampaignTable& CampaignTable::operator=(CampaignTable&&) noexcept = default;
 CampaignTable::~CampaignTable() = default;
 
 void CampaignTable::add(const TrialResult& trial) {
-  ++state_->trials;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto row = static_cast<std::size_t>(state_->trials++);
   for (const MetricValue& metric : trial.metrics) {
     const State::Key key{metric.lane, metric.node, metric.name, metric.variant};
     const auto [place, fresh] = state_->places.try_emplace(key, state_->series.size());
     if (fresh) state_->series.push_back({metric, {}});
-    if (std::isfinite(metric.value)) state_->series[place->second].values.push_back(metric.value);
+    auto& values = state_->series[place->second].values;
+    values.resize(row, kNone);
+    values.push_back(metric.value);
   }
   if (!trial.extra) return;
   for (const RatioRecord& ratio : trial.extra->ratios) {
@@ -151,11 +36,22 @@ void CampaignTable::add(const TrialResult& trial) {
     if (fresh) state_->lanes.push_back(record.lane);
     place->second.add(record);
   }
+  for (const DetectionSummary& one : trial.extra->detection) {
+    auto& all = state_->detection;
+    const auto same = [&](const DetectionSummary& sum) { return sum.lane == one.lane && sum.node == one.node; };
+    const auto place = std::find_if(all.begin(), all.end(), same);
+    if (place == all.end()) {
+      all.push_back(one);
+    } else {
+      place->counts.merge(one.counts);
+    }
+  }
 }
 
 std::vector<MetricSummary> CampaignTable::summary() const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<MetricSummary> summary;
-  for (const Series& series : state_->series) {
+  for (const TrialSeries& series : state_->series) {
     summary.push_back(summarise(series));
     const auto& key = series.key;
     const auto pool = state_->ratios.find({key.lane, key.node, key.name, key.variant});
@@ -165,23 +61,73 @@ std::vector<MetricSummary> CampaignTable::summary() const {
     MetricSummary ratio;
     ratio.key = {lane, "", "bound_ratio_max", "", 0, false};
     ratio.mean = state_->bounds.at(lane).max();
-    ratio.se = ratio.median = ratio.min = ratio.max = kNone;  // one figure of all trials together
+    for (double* none :
+         {&ratio.se, &ratio.median, &ratio.min, &ratio.max, &ratio.q05, &ratio.q25, &ratio.q75, &ratio.q95})
+      *none = kNone;  // one figure of all trials together
     ratio.n = state_->trials;
     summary.push_back(ratio);
   }
   return summary;
 }
 
+std::vector<PairedSummary> CampaignTable::paired() const {
+  std::vector<std::string> lanes;
+  for (const TrialSeries& series : state_->series) {
+    if (std::find(lanes.begin(), lanes.end(), series.key.lane) == lanes.end()) lanes.push_back(series.key.lane);
+  }
+  std::vector<PairedSummary> all;
+  for (std::size_t base = 0; base < lanes.size(); ++base) {
+    for (std::size_t other = base + 1; other < lanes.size(); ++other) {
+      for (const TrialSeries& a : state_->series) {
+        if (a.key.lane != lanes[base]) continue;
+        const auto place = state_->places.find({lanes[other], a.key.node, a.key.name, a.key.variant});
+        if (place == state_->places.end()) continue;
+        const TrialSeries& b = state_->series[place->second];
+        PairedSummary pair{b.key, lanes[base], paired_difference(a.values, b.values)};
+        if (pair.difference.n > 0) all.push_back(std::move(pair));
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<DetectionSummary> CampaignTable::detection() const { return state_->detection; }
+
 std::int64_t CampaignTable::trials() const { return state_->trials; }
 
-Json to_json(const MetricSummary& summary) {
-  const auto text = [](const std::string& value) { return value.empty() ? Json(nullptr) : Json(value); };
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-  return {{"lane", text(summary.key.lane)},   {"node", text(summary.key.node)},
-          {"name", summary.key.name},         {"variant", text(summary.key.variant)},
-          {"mean", number(summary.mean)},     {"se", number(summary.se)},
-          {"median", number(summary.median)}, {"min", number(summary.min)},
-          {"max", number(summary.max)},       {"n", summary.n}};
+std::string CampaignTable::save() const {
+  ByteWriter out;
+  out.word(state_->lanes.size());
+  for (const std::string& lane : state_->lanes) {
+    out.text(lane);
+    state_->bounds.at(lane).save(out);
+  }
+  out.word(state_->detection.size());
+  for (const DetectionSummary& one : state_->detection) {
+    out.text(one.lane);
+    out.text(one.node);
+    one.counts.save(out);
+  }
+  return out.take();
+}
+
+void CampaignTable::load(std::string_view bytes) {
+  state_->lanes.clear();
+  state_->bounds.clear();
+  state_->detection.clear();
+  if (bytes.empty()) return;
+  ByteReader in(bytes);
+  for (std::size_t left = in.count(8); left > 0; --left) {
+    state_->lanes.push_back(in.text());
+    state_->bounds[state_->lanes.back()].load(in);
+  }
+  for (std::size_t left = in.count(8); left > 0; --left) {
+    DetectionSummary& one = state_->detection.emplace_back();
+    one.lane = in.text();
+    one.node = in.text();
+    one.counts.load(in);
+  }
+  if (!in.done()) throw std::runtime_error("Saved accumulators have something left over.");
 }
 
 }  // namespace vigil

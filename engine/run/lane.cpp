@@ -74,6 +74,7 @@ Lane::Lane(const Lane& other)
       state_score_(other.state_score_),
       twin_score_(other.twin_score_),
       detection_(other.detection_),
+      roc_(other.roc_),
       input_score_(other.input_score_),
       fusion_side_(other.fusion_side_),
       overheard_(other.overheard_),
@@ -221,7 +222,10 @@ void Lane::judge_detection(const Tick& tick) {
     const Detection detection = contender_.detection(output);
     alarms_[o] = detection.alarm ? 1 : 0;
     const bool twin_alarm = twin_ && !twin_faults_.stopped() && twin_->detection(output).alarm;
-    detection_[o].note(tick.k, attacked(tick, output), detection.alarm, twin_alarm);
+    const auto counted = detection_[o].note(tick.k, attacked(tick, output), detection.alarm, twin_alarm);
+    if (roc_.empty() || counted == DetectionScore::Counted::neither) continue;
+    const bool hit = counted == DetectionScore::Counted::attacked;
+    roc_[o].note(hit, detection.statistic, detection.threshold, detection.alarm);
   }
 }
 

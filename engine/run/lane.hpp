@@ -13,6 +13,7 @@
 #include "engine/metrics/detection_score.hpp"
 #include "engine/metrics/input_score.hpp"
 #include "engine/metrics/lane_score.hpp"
+#include "engine/metrics/roc.hpp"
 #include "engine/metrics/state_score.hpp"
 #include "engine/run/contender.hpp"
 #include "engine/run/fault_table.hpp"
@@ -78,6 +79,10 @@ class Lane {
   /// tick.
   void record_bounds(std::int64_t ticks);
   BoundRecord take_record() { return std::move(record_); }
+  /// Counts for detection curves from now on, where the lane detects.
+  void record_detection() { roc_.resize(detection_.size()); }
+  /// By output; empty where nothing was recorded.
+  const std::vector<RocCounts>& detection_counts() const { return roc_; }
 
  private:
   struct Slots {
@@ -112,6 +117,7 @@ class Lane {
   AttackScore attack_score_;
   StateScore state_score_, twin_score_;
   std::vector<DetectionScore> detection_;
+  std::vector<RocCounts> roc_;
   InputScore input_score_;
   std::optional<FusionSide> fusion_side_;
   std::vector<char> overheard_;  ///< of every node's link to the centre
