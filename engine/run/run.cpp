@@ -52,8 +52,8 @@ bool Run::done() const {
   return true;
 }
 
-Command Run::prepare(const Json& body) const {
-  Command command{state_->k + 1, body};
+Command Run::prepare(const Json& body, std::optional<std::int64_t> at) const {
+  Command command{at.value_or(state_->k + 1), body};
   if (done()) throw InputError("", "the run has ended; nothing can be changed any more");
   State trial(*state_);  // a command that fails must leave the run as it was
   for (const Command& before : state_->pending) {

@@ -83,9 +83,9 @@ class Run {
   std::int64_t tick() const;  ///< k of the newest frame, -1 before the first
   bool done() const;          ///< all steps made, the trace at its end, or every lane stopped
 
-  /// Checks a command's body against the run as it stands and gives it its tick (tick() + 1) and, for an attack without
-  /// one, an id. Throws InputError. Does not change the run.
-  Command prepare(const Json& body) const;
+  /// Checks a command's body against the run as it stands, with the applied commands up to its tick, and gives it its
+  /// tick (tick() + 1, or `at`) and, for an attack without one, an id. Throws InputError. Does not change the run.
+  Command prepare(const Json& body, std::optional<std::int64_t> at = std::nullopt) const;
   /// Applies a prepared command before the next tick.
   void apply(const Command& command);
 

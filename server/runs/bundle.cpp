@@ -59,8 +59,8 @@ void check_commands(const RunOrder& order) {
     if (i > 0 && command.k < order.commands[i - 1].k)
       throw InputError(child("/commands", i), "the commands are not in the order of their ticks", "rising k");
     try {
-      scratch.prepare(command.body);
-      scratch.apply({0, command.body});  // before its first tick, so that the next one is checked with it
+      scratch.prepare(command.body, command.k);
+      scratch.apply(command);  // so that the next one is checked with it
     } catch (const InputError& error) {
       std::vector<Problem> problems = error.problems();
       for (Problem& problem : problems) problem.pointer = child("/commands", i) + "/body" + problem.pointer;

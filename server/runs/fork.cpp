@@ -123,9 +123,8 @@ class PatchSorter {
 /// The commands' own pointers lead into the body of a command; the asker wrote a patch.
 void add_command(Run& scratch, RunOrder& order, std::int64_t k, const Json& body, const std::string& pointer) {
   try {
-    Command command = scratch.prepare(body);
-    command.k = k + 1;
-    scratch.apply({0, command.body});
+    Command command = scratch.prepare(body, k + 1);
+    scratch.apply(command);
     order.commands.push_back(std::move(command));
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
@@ -152,12 +151,11 @@ RunOrder fork_order(const RunRow& parent, std::int64_t k, const Json& patch, std
   order.tags = parent.tags;
   std::erase(order.tags, "demo");
 
-  // A run that has had every earlier command is what the patch is checked against: all of them before its first tick,
-  // since only what they leave behind matters here.
+  // A run that has had every earlier command is what the patch is checked against.
   Run scratch = make_run(order);
   for (const Command& command : parent.commands) {
     if (command.k > k) continue;
-    scratch.apply({0, command.body});
+    scratch.apply(command);
     order.commands.push_back(command);
   }
   if (!sorter.params.empty()) add_command(scratch, order, k, Json{{"params", sorter.params}}, "/patch");

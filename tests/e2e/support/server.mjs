@@ -8,7 +8,7 @@ import { fileURLToPath } from 'node:url';
 
 export const root = fileURLToPath(new URL('../../../', import.meta.url));
 export const dist = process.env.VIGIL_WEB ?? join(root, 'web', 'dist');
-const binary = process.env.VIGIL_BINARY ?? join(root, 'build', 'release', 'vigil');
+export const binary = process.env.VIGIL_BINARY ?? join(root, 'build', 'release', 'vigil');
 export const deadline = 60_000;
 
 export function folder() {

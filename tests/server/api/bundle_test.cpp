@@ -66,6 +66,38 @@ TEST_F(BundleTest, ARunWithLiveCommandsIsRepeatedByteForByte) {
   EXPECT_EQ(client_->get(path(copy)).json.at("metrics"), bundle.json.at("metrics"));
 }
 
+// What a hand's attack means may depend on its tick: a playback plays what came before it.
+TEST_F(BundleTest, APlaybackByHandIsRepeatedAndForked) {
+  const std::string id =
+      client_->start({{"scenario", "replay-mixed"},
+                      {"seed", 3},
+                      {"pace", 5},
+                      {"patch", {{"adversary", {{"replay", nullptr}}}, {"time", {{"steps", 120}}}}}});
+  ASSERT_TRUE(eventually([&] { return client_->tick(id) >= 0; }));
+  ASSERT_EQ(client_->patch(path(id), {{"state", "paused"}}).status, 200);
+  ASSERT_EQ(client_->patch(path(id), {{"step", 80 - client_->tick(id)}}).status, 200);
+  ASSERT_TRUE(eventually([&] { return client_->tick(id) >= 80; }));
+  ASSERT_EQ(client_->post(path(id) + "/attacks", {{"type", "replay"}, {"on", {"sensor:1"}}}).status, 201);
+  ASSERT_EQ(client_->patch(path(id), {{"pace", "max"}, {"state", "running"}}).status, 200);
+  ASSERT_TRUE(client_->reaches(id, "finished"));
+  const Answer imported = client_->send("POST", "/api/v1/runs/import", client_->get(path(id) + "/bundle").body);
+  ASSERT_EQ(imported.status, 201) << imported.body;
+  const std::string copy = imported.json.at("id");
+  ASSERT_TRUE(client_->reaches(copy, "finished"));
+  EXPECT_EQ(frames(copy), frames(id));
+  const Answer fork = client_->post(
+      path(id) + "/fork",
+      {{"k", 100},
+       {"patch",
+        {{"adversary",
+          {{"late", {{"type", "dos"}, {"on", {"sensor:1"}}, {"from", 110}, {"params", Json::object()}}}}}}},
+       {"pace", "max"}});
+  ASSERT_EQ(fork.status, 201) << fork.body;
+  ASSERT_TRUE(client_->reaches(fork.json.at("id"), "finished"));
+  EXPECT_EQ(frames(fork.json.at("id"), "?to=109"), frames(id, "?to=109"));
+  EXPECT_NE(frames(fork.json.at("id")), frames(id));
+}
+
 TEST_F(BundleTest, AForkSharesThePastAndGoesItsOwnWay) {
   const std::string id = eventful();
   const std::int64_t last = client_->tick(id);
