@@ -67,6 +67,7 @@ int run_command_line(int argc, char** argv) {
   add_trace(app, action);
   add_identify(app, action);
   add_push(app, action);
+  add_hands(app, action);
   add_db(app, action);
   add_solver(app, action);
   if (const std::string sentence = unknown_command(app, argc, argv); !sentence.empty())

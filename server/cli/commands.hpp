@@ -34,6 +34,7 @@ void add_lists(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
 void add_push(CLI::App& app, Action& action);
+void add_hands(CLI::App& app, Action& action);
 void add_db(CLI::App& app, Action& action);
 /// Not shown: what the server starts as its child.
 void add_solver(CLI::App& app, Action& action);

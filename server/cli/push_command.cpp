@@ -1,16 +1,13 @@
 // `vigil push`: a CSV file, row by row, into a run of a server that was started with "input":"ingest".
-#include <httplib.h>
-
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <memory>
 #include <sstream>
-#include <thread>
 #include <unordered_set>
 #include <vector>
 
 #include "engine/core/json.hpp"
+#include "server/cli/api_client.hpp"
 #include "server/cli/commands.hpp"
 #include "server/cli/files.hpp"
 #include "server/ingest/csv_cells.hpp"
@@ -21,51 +18,30 @@ namespace {
 constexpr std::size_t kRowsACall = 500;
 
 struct PushCommand {
-  std::string run, file, server = "http://127.0.0.1:8080", token_file;
+  ServerOptions server;
+  std::string run, file;
 };
 
 class Pusher {
  public:
-  explicit Pusher(const PushCommand& command) : client_(command.server), path_("/api/v1/ingest/" + command.run) {
-    if (command.run.empty() ||
-        !std::all_of(command.run.begin(), command.run.end(), [](char c) { return c >= '0' && c <= '9'; }))
-      throw UserError("RUN is " + command.run + "; expected a run's id");
-    if (!client_.is_valid() || !command.server.starts_with("http://"))
-      throw UserError("--server is " + command.server + "; expected http://HOST:PORT");
-    client_.set_read_timeout(60);
-    if (command.token_file.empty()) return;
-    const std::string text = read_text(command.token_file);
-    client_.set_bearer_token_auth(text.substr(0, text.find_first_of("\r\n")).c_str());
+  explicit Pusher(const PushCommand& command) : client_(command.server) {
+    run_path(command.run);  // refuses what is no id
+    path_ = "/ingest/" + command.run;
   }
 
   /// Names of the columns that the run takes.
-  std::vector<std::string> columns() { return answer(client_.Get(path_.c_str())).at("columns"); }
+  std::vector<std::string> columns() { return client_.get(path_).at("columns"); }
 
-  /// Sends it as often as the run is behind.
   void push(const std::string& csv) {
-    for (;;) {
-      const auto result = client_.Post(path_.c_str(), csv, "text/csv");
-      if (!result || result->status != 429) {
-        const Json got = answer(result);
-        for (const char* name : {"accepted", "duplicate", "late", "beyond"})
-          total_[name] = total_.value(name, 0) + got.at(name).get<std::int64_t>();
-        total_["closed"] = got.at("closed");
-        return;
-      }
-      std::this_thread::sleep_for(std::chrono::seconds(1));
-    }
+    const Json got = client_.post_csv(path_, csv);
+    for (const char* name : {"accepted", "duplicate", "late", "beyond"})
+      total_[name] = total_.value(name, 0) + got.at(name).get<std::int64_t>();
+    total_["closed"] = got.at("closed");
   }
   const Json& total() const { return total_; }
 
  private:
-  static Json answer(const httplib::Result& result) {
-    if (!result) throw UserError("the server does not answer: " + httplib::to_string(result.error()));
-    const Json json = Json::parse(result->body, nullptr, false);
-    if (result->status == 200 && json.is_object()) return json;
-    throw UserError(json.is_object() ? json.value("detail", "the server refused") : "this is no server of Vigil");
-  }
-
-  httplib::Client client_;
+  ApiClient client_;
   std::string path_;
   Json total_ = Json::object();
 };
@@ -138,8 +114,7 @@ void add_push(CLI::App& app, Action& action) {
   CLI::App* sub = app.add_subcommand("push", "rows of a CSV file into a run that waits for them");
   sub->add_option("RUN", command->run, "its id")->required();
   sub->add_option("FILE", command->file, "k,<signal names> and one row a tick; - for standard input")->required();
-  sub->add_option("--server", command->server, "http://127.0.0.1:8080 without");
-  sub->add_option("--token-file", command->token_file, "first line: the token");
+  command->server.add_to(*sub);
   sub->callback([command, &action] { action = [command] { return push(*command); }; });
 }
 
