@@ -79,6 +79,7 @@ const std::vector<Item>& items();
 Json to_json(const Item& item, const Findings& findings);
 
 std::vector<Item> consensus_items();
+std::vector<Item> privacy_items();
 std::vector<Item> replay_items();
 
 }  // namespace vigil::papers

@@ -61,8 +61,12 @@ Findings against_gmeekf(Laboratory& laboratory) {
   };
   peaks(Reading::printed, "reduction of the peak error, GMEEKF with alpha 2, beta 2, form square", *standard);
   peaks(Reading::corrected, "reduction of the peak error, GMEEKF with alpha 3, beta 2, form square", *sharp);
-  found.claim(Reading::corrected, "RMSE of the proposed filter over GMEEKF's", "similar level",
-              ratio_of(sharp->values("as_written", "rmse_state"), sharp->values("gmeekf", "rmse_state")), 0.6, 1.05);
+  const auto level = [&](const char* name, const Study& from) {
+    found.claim(Reading::noted, std::string("RMSE of the proposed filter over GMEEKF's, ") + name, "similar level",
+                ratio_of(from.values("as_written", "rmse_state"), from.values("gmeekf", "rmse_state")), 0.8, 1.1);
+  };
+  level("alpha 2, beta 2", *standard);
+  level("alpha 3, beta 2", *sharp);
   peaks(Reading::noted, "reduction of the peak error, GMEEKF with alpha 2, beta 5, form square", *study(2, 5));
   found.panels = error_panels(laboratory, "replay-nongaussian", "gmeekf", kernel(3, 2));
   return found;
@@ -129,9 +133,10 @@ std::vector<Item> replay_error_items() {
        "replay, sections 8.1 and 9",
        "replay-nongaussian",
        "Reproduced where the mean peak error is 37 to 56 % below that of GMEEKF with its usual kernel; after "
-       "correction where it is so with the kernel that is stated, at a similar level of the RMSE.",
+       "correction where it is so with a kernel that is stated (alpha 3, beta 2, form square).",
        "The kernel of GMEEKF is not given, and the number is a property of it: alpha 3, beta 2 gives the printed "
-       "reduction, alpha 2, beta 2 less than half of it. With mu = 1 the proposed filter is the Kalman filter here. "
+       "reduction but no similar level of the errors, alpha 2, beta 2 the level but less than half of the reduction. "
+       "With mu = 1 the proposed filter is the Kalman filter here. "
        "The paper's number comes from one run, ours is a mean over runs.",
        against_gmeekf},
       {"003/fig3",
