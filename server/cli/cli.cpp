@@ -60,6 +60,7 @@ int run_command_line(int argc, char** argv) {
   add_run(app, action);
   add_campaign(app, action);
   add_compare(app, action);
+  add_papers(app, action);
   add_synthesize(app, action);
   add_check(app, action);
   add_compatibility(app, action);
