@@ -162,7 +162,7 @@ describe('scenario form', () => {
     await view.goto('/scenarios');
     const rows = Array.from({ length: 5 }, (_, k) => `${k},${k},${k === 0 ? '' : 1},${k}`);
     const csv = ['k,t,input.sl,truth.x', ...rows].join('\n');
-    await page.locator('#traces input[type=file]').setInputFiles({ name: 'walk.csv', mimeType: 'text/csv', buffer: Buffer.from(csv) });
+    await page.getByLabel('Upload a CSV file').setInputFiles({ name: 'walk.csv', mimeType: 'text/csv', buffer: Buffer.from(csv) });
     await page.getByRole('cell', { name: 'walk', exact: true }).waitFor();
     await view.goto('/scenarios/consensus');
     await page.getByRole('combobox', { name: 'Input' }).locator('option', { hasText: 'walk' }).waitFor({ state: 'attached' });

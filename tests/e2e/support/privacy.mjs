@@ -9,7 +9,7 @@ export const word = (lane) => lane.replaceAll('_', ' ');
 export const near = (text, value) => assert.ok(Math.abs(Number(text) - value) <= 0.006 * Math.abs(value) + 1e-12, `${text} for ${value}`);
 const rowsOf = (place) => place.locator('tbody tr').evaluateAll((list) => list.map((row) => [...row.cells].map((cell) => cell.textContent.trim())));
 export const ranks = ['low', 'relatively low', 'medium', 'relatively high', 'high'];
-const common = ['Tracks', 'Squared errors', 'Confidentiality', 'Messages', 'Events'];
+const common = ['Tracks', 'Squared errors', 'Confidentiality', 'Messages', 'Attacks', 'Events'];
 export const scenarios = {
   'privacy-robot-linear': common,
   'privacy-robot-nonlinear': common,
