@@ -92,7 +92,7 @@ const Claim& headline_of(const Findings& findings) {
 const std::vector<Item>& items() {
   static const std::vector<Item> all = [] {
     std::vector<Item> list;
-    for (const auto& family : {consensus_items(), replay_items(), privacy_items()})
+    for (const auto& family : {consensus_items(), sparse_items(), observer_items(), replay_items(), privacy_items()})
       list.insert(list.end(), family.begin(), family.end());
     return list;
   }();

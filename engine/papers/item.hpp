@@ -80,6 +80,8 @@ Json to_json(const Item& item, const Findings& findings);
 
 std::vector<Item> consensus_items();
 std::vector<Item> privacy_items();
+std::vector<Item> sparse_items();
+std::vector<Item> observer_items();
 std::vector<Item> replay_items();
 
 }  // namespace vigil::papers
