@@ -1,6 +1,5 @@
 #include "db/reader.hpp"
 
-#include <bit>
 #include <filesystem>
 
 #include "db/chunk.hpp"
@@ -93,24 +92,7 @@ TraceRow trace_row(const Statement& query) {
   return row;
 }
 
-CampaignRow campaign_row(const Statement& query) {
-  CampaignRow row;
-  row.id = query.integer(0);
-  row.state = query.text(1);
-  row.request = parsed(query.text(2));
-  row.result = parsed(query.text(3));
-  row.trials = query.integer(4);
-  row.created = query.integer(5);
-  row.ended = query.maybe_integer(6);
-  row.error = query.text(7);
-  row.done = query.integer(8);
-  return row;
-}
-
 const std::string kTraceColumns = "SELECT id,name,hash,rows,columns,bytes,created FROM trace ";
-const std::string kCampaignColumns =
-    "SELECT id,state,request,result,trials,created,ended,error,"
-    "(SELECT count(*) FROM campaign_trial WHERE campaign=campaign.id) FROM campaign ";
 
 }  // namespace
 
@@ -148,34 +130,6 @@ std::optional<std::string> LogReader::design_problem(const std::string& key) con
   auto query = database->cached("SELECT problem FROM design WHERE key=?");
   if (!query.bind(1, key).step()) return std::nullopt;
   return decompress_text(query.bytes(0));
-}
-
-std::vector<CampaignRow> LogReader::campaigns() const {
-  const auto database = state_->lease();
-  auto query = database->cached(kCampaignColumns + "ORDER BY id DESC");
-  std::vector<CampaignRow> rows;
-  while (query.step()) rows.push_back(campaign_row(query));
-  return rows;
-}
-
-std::optional<CampaignRow> LogReader::campaign(std::int64_t id) const {
-  const auto database = state_->lease();
-  auto query = database->cached(kCampaignColumns + "WHERE id=?");
-  if (!query.bind(1, id).step()) return std::nullopt;
-  return campaign_row(query);
-}
-
-std::vector<TrialRow> LogReader::trials(std::int64_t campaign) const {
-  const auto database = state_->lease();
-  auto query =
-      database->cached("SELECT position,seed,state,metrics FROM campaign_trial WHERE campaign=? ORDER BY position");
-  query.bind(1, campaign);
-  std::vector<TrialRow> rows;
-  while (query.step()) {
-    rows.push_back(
-        {query.integer(0), std::bit_cast<std::uint64_t>(query.integer(1)), query.text(2), parsed(query.text(3))});
-  }
-  return rows;
 }
 
 Json LogReader::setting(const std::string& key) const {

@@ -99,7 +99,12 @@ class LogReader {
   std::optional<std::string> trace_csv(std::int64_t id) const;
   std::vector<CampaignRow> campaigns() const;  ///< newest first
   std::optional<CampaignRow> campaign(std::int64_t id) const;
-  std::vector<TrialRow> trials(std::int64_t campaign) const;
+  /// In order of their index.
+  std::vector<TrialRow> trials(std::int64_t campaign, TrialRange range = {}) const;
+  /// Without results and accumulators: what each cell is.
+  std::vector<CampaignCellRow> campaign_cells(std::int64_t campaign) const;
+  /// Whole.
+  std::optional<CampaignCellRow> campaign_cell(std::int64_t campaign, std::int64_t cell) const;
   std::optional<DesignRow> design(const std::string& key) const;
   std::optional<std::string> design_problem(const std::string& key) const;  ///< the text that was stored with it
   Json setting(const std::string& key) const;                               ///< null: not set

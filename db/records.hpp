@@ -160,25 +160,63 @@ struct DesignRow {
   WallTime created = 0;
 };
 
-/// A campaign is kept as its document (what was asked) and its result (the merged table), with one row a finished
-/// trial.
+/// A campaign: what was asked, and how far it is. States: queued running paused interrupted finished cancelled failed.
 struct CampaignRow {
   std::int64_t id = 0;
   std::string state;
   Json request;
-  Json result;              ///< null until there is one
+  Json result;              ///< of files before schema 3; null since: results are the cells'
   std::int64_t trials = 0;  ///< asked for
-  std::int64_t done = 0;    ///< trials that have a row
+  std::int64_t done = 0;    ///< trials that have a row: always the first ones
+  std::int64_t failed = 0;  ///< of those, trials that have no result or lost a lane
   WallTime created = 0;
   std::optional<WallTime> ended;
   std::string error;
 };
 
+/// One trial. state: finished, stopped (a fault stopped a lane of it), failed (no result).
 struct TrialRow {
-  std::int64_t index = 0;
+  std::int64_t index = 0;  ///< cell * runs + its place in the cell
   std::uint64_t seed = 0;
   std::string state;
-  Json metrics;
+  std::string numbers;  ///< doubles, little endian, by the cell's columns
+  std::int64_t ticks = 0;
+  Json faults;               ///< null: none
+  Json warnings;             ///< null: none
+  std::string error;         ///< of a failed one
+  std::optional<RunId> run;  ///< that keeps its samples
+  Json metrics;              ///< of files before schema 3; null since
+};
+
+/// One point of a campaign's grid, as far as it is merged.
+struct CampaignCellRow {
+  std::int64_t cell = 0;
+  Json sweep;                ///< {"path":value}
+  Json designs;              ///< {"<lane>":record} that its trials are made with; null: not found yet, or none needed
+  Json design;               ///< of its first trial; null: none yet
+  Json columns;              ///< of its trials' numbers; null: none yet
+  std::string accumulators;  ///< as of its newest trial; empty once there is a result
+  Json result;               ///< null until all its trials are there
+};
+
+/// What one transaction adds to a campaign.
+struct CampaignBatch {
+  std::vector<TrialRow> trials;
+  std::vector<CampaignCellRow> cells;  ///< of these trials; sweep and designs do not change
+};
+
+struct NewCampaign {
+  Json request;
+  std::int64_t trials = 0;
+  std::vector<CampaignCellRow> cells;  ///< cell, sweep and designs count
+  std::string idempotency_key;         ///< empty: none
+  std::string idempotency_hash;
+};
+
+/// Which trials of a campaign to read; those of one cell are neighbours.
+struct TrialRange {
+  std::int64_t from = 0;  ///< index
+  std::int64_t to = INT64_MAX;
 };
 
 std::string_view to_string(LogPolicy policy);

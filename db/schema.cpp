@@ -84,7 +84,26 @@ CREATE TABLE design(
 CREATE INDEX design_by_age ON design(created);
 )sql";
 
-const char* const kMigrations[kSchemaVersion] = {kVersion1, kVersion2};
+// Campaigns that survive: trials as plain numbers, one row a point of the grid with what is merged so far. Those begun
+// before kept too little to be gone on with.
+const char* const kVersion3 = R"sql(
+ALTER TABLE campaign ADD COLUMN key TEXT;
+ALTER TABLE campaign ADD COLUMN hash TEXT;
+CREATE INDEX campaign_by_key ON campaign(key) WHERE key IS NOT NULL;
+ALTER TABLE campaign_trial ADD COLUMN numbers BLOB;
+ALTER TABLE campaign_trial ADD COLUMN ticks INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE campaign_trial ADD COLUMN faults BLOB;
+ALTER TABLE campaign_trial ADD COLUMN warnings TEXT;
+ALTER TABLE campaign_trial ADD COLUMN error TEXT NOT NULL DEFAULT '';
+ALTER TABLE campaign_trial ADD COLUMN run INTEGER;
+CREATE TABLE campaign_cell(
+  campaign INTEGER NOT NULL REFERENCES campaign(id) ON DELETE CASCADE, cell INTEGER NOT NULL, sweep TEXT NOT NULL,
+  designs TEXT, design TEXT, columns TEXT, accumulators BLOB, result BLOB, PRIMARY KEY(campaign,cell)) WITHOUT ROWID;
+UPDATE campaign SET state='cancelled',error='It was begun by an older Vigil and cannot be gone on with.'
+  WHERE state IN('queued','running','paused','interrupted');
+)sql";
+
+const char* const kMigrations[kSchemaVersion] = {kVersion1, kVersion2, kVersion3};
 
 [[noreturn]] void unusable(const std::string& sentence) { throw LogError(LogError::Kind::unusable, sentence); }
 

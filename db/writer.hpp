@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,11 @@ struct CreatedRun {
   bool fresh = true;  ///< false: the idempotency key was known and this is the run it made
 };
 
+struct CreatedCampaign {
+  std::int64_t id = 0;
+  bool fresh = true;  ///< false: the idempotency key was known and this is the campaign it made
+};
+
 class LogWriter {
  public:
   /// Opens or creates the file. Runs that were left queued, designing, running or paused become `interrupted` and their
@@ -81,9 +87,12 @@ class LogWriter {
   void set_setting(const std::string& key, const Json& value);
   /// Keeps the newest 500. `problem` is a text, stored compressed; a key that is known is replaced.
   void put_design(const std::string& key, const std::string& lane, const Json& record, std::string_view problem);
-  std::int64_t create_campaign(const Json& request, std::int64_t trials);
-  void update_campaign(std::int64_t id, const std::string& state, const Json& result, const std::string& error = {});
-  void add_trial(std::int64_t campaign, const TrialRow& trial);
+  CreatedCampaign create_campaign(const NewCampaign& campaign);
+  void update_campaign(std::int64_t id, const std::string& state, const std::string& error = {});
+  /// Changes "tags" or "note" of the request.
+  void describe_campaign(std::int64_t id, const Json& changes);
+  /// Gains that a cell's trials are made with.
+  void set_cell_designs(std::int64_t campaign, std::int64_t cell, const Json& designs);
   bool delete_campaign(std::int64_t id);
 
   // The calls of this block return at once.
@@ -99,6 +108,8 @@ class LogWriter {
   void mark(RunId run, const Mark& mark);
   /// Like update(), without waiting; never dropped.
   void post(RunId run, const RunUpdate& update);
+  /// Trials and what is merged of them, in one transaction; ready once it is committed, with the failure otherwise.
+  std::future<void> add_trials(std::int64_t campaign, CampaignBatch batch);
   /// Limits of retention from now on.
   void set_retention(std::optional<double> keep_days, std::optional<double> keep_gib);
   LogHealth health() const;

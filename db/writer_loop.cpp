@@ -23,9 +23,7 @@ void interrupt_open_runs(Database& database, WallTime now) {
       "'The server ended before the run did.' FROM run WHERE ";
   database.cached(joined({mark, open})).run();
   database.cached(joined({"UPDATE run SET state='interrupted',ended=? WHERE ", open})).bind(1, now).run();
-  database.cached("UPDATE campaign SET state='interrupted',ended=? WHERE state IN('queued','running','paused')")
-      .bind(1, now)
-      .run();
+  database.cached("UPDATE campaign SET state='interrupted' WHERE state IN('queued','running')").run();
   transaction.commit();
 }
 

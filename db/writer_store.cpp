@@ -1,6 +1,4 @@
-/// LogWriter's calls on scenarios, traces, settings and campaigns.
-#include <bit>
-
+/// LogWriter's calls on scenarios, traces and settings.
 #include "db/chunk.hpp"
 #include "db/writer_state.hpp"
 
@@ -75,52 +73,6 @@ void LogWriter::put_design(const std::string& key, const std::string& lane, cons
         .bind(1, kDesignsKept)
         .run();
   });
-}
-
-std::int64_t LogWriter::create_campaign(const Json& request, std::int64_t trials) {
-  const WallTime now = state_->now();
-  std::int64_t id = 0;
-  state_->commit_now([&](Database& database) {
-    database.cached("INSERT INTO campaign(state,request,trials,created) VALUES('queued',?,?,?)")
-        .all(dump(request), trials, now)
-        .run();
-    id = database.last_id();
-  });
-  return id;
-}
-
-void LogWriter::update_campaign(std::int64_t id, const std::string& state, const Json& result,
-                                const std::string& error) {
-  const bool ended = state != "queued" && state != "running" && state != "paused";
-  const auto end = ended ? std::optional(state_->now()) : std::nullopt;
-  const auto text = result.is_null() ? std::nullopt : std::optional(dump(result));
-  state_->commit_now([&](Database& database) {
-    database.cached("UPDATE campaign SET state=?,result=coalesce(?,result),error=?,ended=? WHERE id=?")
-        .all(state, text, error, end, id)
-        .run();
-    if (database.changes() == 0) {
-      throw LogError(LogError::Kind::missing, "There is no campaign " + std::to_string(id) + ".");
-    }
-  });
-}
-
-void LogWriter::add_trial(std::int64_t campaign, const TrialRow& trial) {
-  Job job;
-  job.apply = [campaign, trial](Database& database) {
-    database.cached("INSERT OR REPLACE INTO campaign_trial(campaign,position,seed,state,metrics) VALUES(?,?,?,?,?)")
-        .all(campaign, trial.index, std::bit_cast<std::int64_t>(trial.seed), trial.state, dump(trial.metrics))
-        .run();
-  };
-  state_->submit_and_wait(std::move(job));
-}
-
-bool LogWriter::delete_campaign(std::int64_t id) {
-  bool there = false;
-  state_->commit_now([&](Database& database) {
-    database.cached("DELETE FROM campaign WHERE id=?").bind(1, id).run();
-    there = database.changes() > 0;
-  });
-  return there;
 }
 
 }  // namespace vigil

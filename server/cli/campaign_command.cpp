@@ -3,21 +3,19 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
-#include <thread>
 
-#include "db/writer.hpp"
+#include "db/reader.hpp"
+#include "server/campaigns/result.hpp"
+#include "server/campaigns/work.hpp"
 #include "server/cli/commands.hpp"
 #include "server/cli/files.hpp"
 #include "server/cli/gain_finder.hpp"
 #include "server/cli/progress.hpp"
 #include "server/cli/report.hpp"
 #include "server/cli/scenario_options.hpp"
-#include "server/runs/campaign_runner.hpp"
 
 namespace vigil {
 namespace {
-
-constexpr std::size_t kMostPoints = 10'000;
 
 struct CampaignCommand {
   ScenarioOptions scenario;
@@ -26,64 +24,147 @@ struct CampaignCommand {
   int threads = 0;
   std::vector<std::string> sweeps;
   std::string db, json;
+  bool samples = false;
+  std::optional<std::int64_t> resume;
   GainFinder gains;
 };
 
-CampaignPlan make_plan(CampaignCommand& command) {
+/// What the command asks for, and what it brings along.
+struct Asked {
+  CampaignRequest request;
+  std::shared_ptr<const Trace> trace;
+  Json designs = Json::object();
+};
+
+Asked read(const CampaignCommand& command) {
+  if (command.scenario.scenario.empty()) throw UserError("SCENARIO is missing; expected one, or --resume ID");
+  if (command.runs == 0) throw UserError("--runs is missing; expected how many runs each point has");
   const RunOrder order = command.scenario.order();
   if (!order.commands.empty())
     throw UserError("a bundle with live commands cannot be a campaign; its document alone can");
   require_end(order);
-  std::vector<std::pair<std::string, std::vector<Json>>> sweeps;
-  std::size_t points = 1;
-  for (const std::string& text : command.sweeps) {
-    sweeps.push_back(parse_sweep(text));
-    points *= sweeps.back().second.size();
-    if (points > kMostPoints) throw UserError("--sweep asks for more than " + std::to_string(kMostPoints) + " points");
-  }
-  CampaignPlan plan;
-  plan.points = make_grid(order.scenario, sweeps);
-  for (CampaignPoint& point : plan.points) {
+  Asked asked{{.scenario = order.scenario}, order.trace, order.designs};
+  for (const std::string& text : command.sweeps) asked.request.sweep.push_back(parse_sweep(text));
+  if (asked.request.cells() > kMostCells)
+    throw UserError("--sweep asks for more than " + std::to_string(kMostCells) + " points");
+  asked.request.runs = command.runs;
+  asked.request.first_seed = static_cast<std::uint64_t>(command.first_seed);
+  asked.request.threads = command.threads;
+  asked.request.samples = command.samples;
+  return asked;
+}
+
+/// The plan with every gain found; those of `known`, by cell, need no finding.
+CampaignPlan complete(CampaignCommand& command, const Asked& asked, const std::vector<CampaignCellRow>& known) {
+  CampaignPlan plan = make_plan(asked.request);
+  plan.trace = asked.trace;
+  for (std::size_t cell = 0; cell < plan.points.size(); ++cell) {
+    CampaignPoint& point = plan.points[cell];
     RunOrder one;
     one.scenario = point.scenario;
-    one.designs = order.designs;
+    one.designs = cell < known.size() && known[cell].designs.is_object() ? known[cell].designs : asked.designs;
     command.gains.require(one);
     point.designs = std::move(one.designs);
   }
-  plan.runs = command.runs;
-  plan.first_seed = static_cast<std::uint64_t>(command.first_seed);
-  plan.trace = order.trace;
-  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  plan.threads = command.threads > 0 ? command.threads : static_cast<int>(cores);
+  RunOrder first;
+  first.scenario = plan.points.front().scenario;
+  first.seed = plan.first_seed;
+  first.trace = plan.trace;
+  first.designs = plan.points.front().designs;
+  make_run(first);  // what no trial could be made of is bad input
   return plan;
 }
 
-/// The campaign's row in a log, and one row a trial.
-class Logged {
- public:
-  Logged(const std::string& file, const CampaignPlan& plan) : log_(file) {
-    Json request{
-        {"scenario", plan.points.front().scenario.document()}, {"runs", plan.runs}, {"first_seed", plan.first_seed}};
-    for (const CampaignPoint& point : plan.points) request["points"].push_back(point.sweep);
-    id_ = log_.create_campaign(request, plan.trials());
-  }
-  void add(std::int64_t index, const TrialResult& trial) {
-    TrialRow row;
-    row.index = index;
-    row.seed = trial.seed;
-    row.state = "finished";
-    row.metrics = Json::array();
-    for (const MetricValue& metric : trial.metrics) row.metrics.push_back(to_json(metric));
-    log_.add_trial(id_, row);
-  }
-  void finish(const Json& result) { log_.update_campaign(id_, "finished", result); }
-
- private:
-  LogWriter log_;
-  std::int64_t id_ = 0;
+struct Followed {
+  std::vector<CellResult> cells;
+  std::int64_t ticks = 0;  ///< made by this process
 };
 
-Json result_json(const CampaignPlan& plan, const std::vector<CampaignOutcome>& outcomes) {
+Followed in_memory(CampaignPlan plan) {
+  plan.trial = [&plan](std::int64_t index) {
+    const CampaignPoint& point = plan.points[static_cast<std::size_t>(index / plan.runs)];
+    const std::uint64_t seed = plan.first_seed + static_cast<std::uint64_t>(index % plan.runs);
+    try {
+      return run_trial(point.scenario, seed, plan.trace, point.designs);
+    } catch (const InputError& error) {
+      return failed_trial(plan, index, error.what());
+    }
+  };
+  Progress progress("run", plan.trials());
+  Followed followed;
+  CampaignCell cell;
+  const std::atomic<bool> never{false};
+  run_trials(plan, never, [&](std::int64_t index, const TrialResult& trial) {
+    cell.add(trial);
+    followed.ticks += trial.ticks;
+    progress.at(index + 1);
+    if ((index + 1) % plan.runs != 0) return;
+    const std::int64_t place = index / plan.runs;
+    followed.cells.push_back({place, plan.points[static_cast<std::size_t>(place)].sweep, cell.result()});
+    cell = {};
+  });
+  return followed;
+}
+
+bool open(const CampaignRow& row) {
+  return row.state == "queued" || row.state == "paused" || row.state == "interrupted";
+}
+
+/// The campaign to go on with: the one that was named, or the newest open one of the same request.
+std::optional<CampaignRow> unfinished(const LogReader& reader, const CampaignCommand& command, Asked& asked) {
+  if (command.resume) {
+    auto row = reader.campaign(*command.resume);
+    if (!row) throw UserError("--resume is " + std::to_string(*command.resume) + "; the log has no such campaign");
+    if (!open(*row)) throw UserError("campaign " + std::to_string(row->id) + " is " + row->state + ": it is over");
+    asked.request = CampaignRequest::from_json(row->request);
+    asked.request.threads = command.threads;
+    if (asked.request.trace) {
+      const auto text = reader.trace_csv(*asked.request.trace);
+      if (!text) throw UserError("the trace of campaign " + std::to_string(row->id) + " was deleted from the log");
+      asked.trace = std::make_shared<const Trace>(Trace::from_csv(*text));
+    }
+    return row;
+  }
+  for (CampaignRow& row : reader.campaigns()) {
+    if (open(row) && CampaignRequest::from_json(row.request).identity() == asked.request.identity()) return row;
+  }
+  return std::nullopt;
+}
+
+Followed logged(CampaignCommand& command, Asked& asked, CampaignPlan& plan) {
+  LogWriter log(command.db);
+  const LogReader reader(command.db);
+  if (asked.trace) {
+    const std::string& file = command.scenario.trace;
+    if (file.empty()) throw UserError("a bundle's trace cannot be logged with a campaign; give it by --trace FILE");
+    asked.request.trace = log.put_trace(file, read_text(file), asked.trace->rows(), asked.trace->columns());
+  }
+  const auto row = unfinished(reader, command, asked);
+  plan = complete(command, asked, row ? reader.campaign_cells(row->id) : std::vector<CampaignCellRow>());
+  plan.trace_id = asked.request.trace;
+  const std::int64_t id = row ? row->id : log.create_campaign(new_campaign(asked.request, plan)).id;
+  if (row) {
+    std::cerr << "vigil: campaign " << id << " goes on, " << row->done << " of " << row->trials
+              << " trials are there already\n";
+  }
+  log.update_campaign(id, "running");
+  Progress progress("run", plan.trials());
+  Followed followed;
+  const std::atomic<bool> never{false};
+  CampaignWork(log, reader, id, plan, asked.request.samples)
+      .run(never, [&](std::int64_t done, const TrialResult& trial) {
+        followed.ticks += trial.ticks;
+        progress.at(done);
+      });
+  log.update_campaign(id, "finished");
+  for (std::size_t cell = 0; cell < plan.points.size(); ++cell) {
+    const auto place = static_cast<std::int64_t>(cell);
+    followed.cells.push_back({place, plan.points[cell].sweep, cell_result(reader, id, place, plan.runs)});
+  }
+  return followed;
+}
+
+Json result_json(const CampaignPlan& plan, const std::vector<CellResult>& cells) {
   const Scenario& scenario = plan.points.front().scenario;
   Json result;
   result["scenario"] = scenario.id();
@@ -92,51 +173,51 @@ Json result_json(const CampaignPlan& plan, const std::vector<CampaignOutcome>& o
   result["steps"] = scenario.document().at("time").at("steps");
   result["runs"] = plan.runs;
   result["state"] = "finished";
-  result["metrics"] = campaign_metrics_json(outcomes);
-  result["design"] = campaign_design_json(outcomes);
-  result["faults"] = campaign_faults_json(outcomes);
-  result["warnings"] = campaign_warnings_json(outcomes);
+  result["trials"] = trials_of(cells);
+  result["metrics"] = rows_of(cells, "metrics");
+  result["paired"] = rows_of(cells, "paired");
+  result["detection"] = rows_of(cells, "detection");
+  result["design"] = designs_of(cells);
+  result["faults"] = rows_of(cells, "faults");
+  result["warnings"] = warnings_of(cells);
   return result;
 }
 
-void print(const CampaignPlan& plan, const std::vector<CampaignOutcome>& outcomes) {
+void print(const CampaignPlan& plan, const std::vector<CellResult>& cells) {
   std::cout << plan.points.front().scenario.id() << ", " << plan.runs << " runs from seed " << plan.first_seed << "\n";
-  for (const CampaignOutcome& outcome : outcomes) {
+  for (const CellResult& cell : cells) {
     std::cout << "\n";
-    for (const auto& [path, value] : outcome.sweep.items()) std::cout << path << " = " << value.dump() << "\n";
-    std::cout << summary_table(outcome.metrics);
-    std::vector<FaultCount> faults;
-    for (const CampaignFault& fault : outcome.faults) faults.push_back(fault.fault);
-    const std::string lines = fault_lines(faults);
+    for (const auto& [path, value] : cell.sweep.items()) std::cout << path << " = " << value.dump() << "\n";
+    std::cout << summary_table(summaries_of(cell.result.at("metrics")));
+    const std::string lines = fault_lines(faults_of(cell.result.at("faults")));
     if (!lines.empty()) std::cout << "\n" << lines;
-    for (const std::string& warning : outcome.warnings) std::cout << "\nwarning: " << warning << "\n";
+    const auto& failed = cell.result.at("trials").at("failed");
+    if (failed != 0) std::cout << "\n" << failed << " trials have no result\n";
+    for (const Json& warning : cell.result.at("warnings"))
+      std::cout << "\nwarning: " << warning.get<std::string>() << "\n";
   }
 }
 
 int carry_out(CampaignCommand& command) {
-  const CampaignPlan plan = make_plan(command);
-  std::unique_ptr<Logged> log;
-  if (!command.db.empty()) log = std::make_unique<Logged>(command.db, plan);
-  Progress progress("run", plan.trials());
-  bool stopped = false;
-  std::int64_t ticks = 0;
-  const std::atomic<bool> never{false};
+  if (command.db.empty() && (command.samples || command.resume))
+    throw UserError("--samples and --resume need --db FILE: the log that keeps the campaign");
+  Asked asked;
+  if (!command.resume) asked = read(command);
+  CampaignPlan plan;
+  if (command.db.empty()) plan = complete(command, asked, {});
   const auto begin = std::chrono::steady_clock::now();
-  auto outcomes = run_campaign(plan, never, [&](std::int64_t index, const TrialResult& trial) {
-    if (log) log->add(index, trial);
-    stopped = stopped || any_stopped(trial.faults);
-    ticks += trial.ticks;
-    progress.at(index + 1);
-  });
+  Followed followed = command.db.empty() ? in_memory(plan) : logged(command, asked, plan);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (std::size_t i = 0; i < outcomes.size(); ++i) drop_seconds(outcomes[i].design, plan.points[i].designs);
-  Json result = result_json(plan, outcomes);
-  if (log) log->finish(result);
-  result["timing"]["run"] = {{"seconds", seconds}, {"ticks_per_second", static_cast<double>(ticks) / seconds}};
+  for (CellResult& cell : followed.cells)
+    drop_seconds(cell.result["design"], plan.points[static_cast<std::size_t>(cell.cell)].designs);
+  Json result = result_json(plan, followed.cells);
+  const auto ticks = static_cast<double>(followed.ticks);
+  result["timing"]["run"] = {{"seconds", seconds}, {"ticks_per_second", ticks / seconds}};
   if (Json timing = command.gains.timing(); !timing.is_null()) result["timing"]["design"] = std::move(timing);
-  if (command.json != "-") print(plan, outcomes);
+  if (command.json != "-") print(plan, followed.cells);
   if (!command.json.empty()) write_text(command.json, result.dump(2) + "\n");
-  return stopped ? kLaneStopped : kDone;
+  const Json& trials = result.at("trials");
+  return trials.at("stopped") != 0 || trials.at("failed") != 0 ? kLaneStopped : kDone;
 }
 
 }  // namespace
@@ -145,8 +226,8 @@ void add_campaign(CLI::App& app, Action& action) {
   auto command = std::make_shared<CampaignCommand>();
   CLI::App* sub = app.add_subcommand("campaign", "many runs: trial i has seed first + i");
   command->scenario.add_to(*sub);
+  sub->get_option("SCENARIO")->required(false);
   sub->add_option("--runs", command->runs, "runs of each point")
-      ->required()
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{10'000'000}));
   sub->add_option("--first-seed", command->first_seed, "1 without")
       ->check(CLI::Range(std::int64_t{0}, static_cast<std::int64_t>(kLargestSeed) - 10'000'000));
@@ -155,7 +236,10 @@ void add_campaign(CLI::App& app, Action& action) {
   sub->add_option("--sweep", command->sweeps, "PATH=V1,V2,…: a grid over every --sweep")
       ->take_all()
       ->allow_extra_args(false);
-  sub->add_option("--db", command->db, "write the campaign into this log, too");
+  sub->add_option("--db", command->db,
+                  "keep the campaign in this log; one of the same request that did not end goes on");
+  sub->add_option("--resume", command->resume, "the campaign of the log to go on with");
+  sub->add_flag("--samples", command->samples, "keep every trial as a run with its samples, tagged campaign:ID");
   sub->add_option("--json", command->json, "write the results as JSON to a file, or to standard output (-)");
   command->gains.add_to(*sub);
   sub->callback([command, &action] { action = [command] { return carry_out(*command); }; });

@@ -1,5 +1,7 @@
 #include "server/runs/campaign_runner.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
@@ -17,7 +19,8 @@ namespace {
 /// memory does not grow with the campaign.
 class TrialQueue {
  public:
-  TrialQueue(std::int64_t trials, int threads) : trials_(trials), ahead_(4 * threads) {}
+  TrialQueue(std::int64_t first, std::int64_t trials, int threads)
+      : trials_(trials), ahead_(4 * threads), next_(first), merged_(first) {}
 
   std::optional<std::int64_t> next() {
     std::unique_lock lock(mutex_);
@@ -61,7 +64,7 @@ class TrialQueue {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::int64_t, TrialResult> results_;
-  std::int64_t next_ = 0, merged_ = 0;
+  std::int64_t next_, merged_;
   std::exception_ptr error_;
   bool closed_ = false;
 };
@@ -81,12 +84,19 @@ class Workers {
 
  private:
   static void work(const CampaignPlan& plan, TrialQueue& queue) {
+    if (plan.nice > 0) setpriority(PRIO_PROCESS, 0, plan.nice);  // of the calling thread
     try {
       while (const auto index = queue.next()) {
+        if (plan.trial) {
+          queue.put(*index, plan.trial(*index));
+          continue;
+        }
         const CampaignPoint& point = plan.points[static_cast<std::size_t>(*index / plan.runs)];
         const auto seed = plan.first_seed + static_cast<std::uint64_t>(*index % plan.runs);
         queue.put(*index, run_trial(point.scenario, seed, plan.trace, point.designs));
       }
+    } catch (const TrialGivenUp&) {
+      queue.close();
     } catch (...) {
       queue.fail(std::current_exception());
     }
@@ -108,17 +118,64 @@ void add_fault(std::vector<CampaignFault>& sums, const FaultCount& fault) {
   sums.push_back({fault, 1});
 }
 
-void merge(CampaignOutcome& outcome, const TrialResult& trial) {
-  if (outcome.design.is_null()) outcome.design = trial.design;
-  for (const FaultCount& fault : trial.faults) add_fault(outcome.faults, fault);
-  for (const std::string& warning : trial.warnings) {
-    const auto& known = outcome.warnings;
-    if (std::find(known.begin(), known.end(), warning) == known.end()) outcome.warnings.push_back(warning);
-  }
-  outcome.ticks += trial.ticks;
+template <class Rows>
+Json list_json(const Rows& rows) {
+  Json list = Json::array();
+  for (const auto& row : rows) list.push_back(to_json(row));
+  return list;
 }
 
 }  // namespace
+
+const char* trial_state(const TrialResult& trial) {
+  if (!trial.error.empty()) return "failed";
+  const bool stopped =
+      std::any_of(trial.faults.begin(), trial.faults.end(), [](const FaultCount& fault) { return fault.stopped; });
+  return stopped ? "stopped" : "finished";
+}
+
+TrialResult failed_trial(const CampaignPlan& plan, std::int64_t index, const std::string& error) {
+  TrialResult failed;
+  failed.seed = plan.first_seed + static_cast<std::uint64_t>(index % plan.runs);
+  failed.error = error;
+  return failed;
+}
+
+void CampaignCell::add(const TrialResult& trial) {
+  table_.add(trial);
+  const std::string_view state = trial_state(trial);
+  ++(state == "failed" ? failed_ : state == "stopped" ? stopped_ : finished_);
+  if (sums_.design.is_null()) sums_.design = trial.design;
+  for (const FaultCount& fault : trial.faults) add_fault(sums_.faults, fault);
+  for (const std::string& warning : trial.warnings) {
+    const auto& known = sums_.warnings;
+    if (std::find(known.begin(), known.end(), warning) == known.end()) sums_.warnings.push_back(warning);
+  }
+  sums_.ticks += trial.ticks;
+}
+
+CampaignOutcome CampaignCell::outcome(Json sweep) const {
+  CampaignOutcome outcome = sums_;
+  outcome.sweep = std::move(sweep);
+  outcome.metrics = table_.summary();
+  return outcome;
+}
+
+Json CampaignCell::result() const {
+  Json faults = Json::array();
+  for (const CampaignFault& fault : sums_.faults) {
+    faults.push_back(to_json(fault.fault));
+    faults.back()["runs"] = fault.runs;
+  }
+  return {{"trials", {{"finished", finished_}, {"stopped", stopped_}, {"failed", failed_}}},
+          {"ticks", sums_.ticks},
+          {"metrics", list_json(table_.summary())},
+          {"paired", list_json(table_.paired())},
+          {"detection", list_json(table_.detection())},
+          {"faults", std::move(faults)},
+          {"warnings", sums_.warnings},
+          {"design", sums_.design}};
+}
 
 std::vector<CampaignPoint> make_grid(const Scenario& base,
                                      const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps) {
@@ -137,67 +194,32 @@ std::vector<CampaignPoint> make_grid(const Scenario& base,
   return points;
 }
 
+void run_trials(const CampaignPlan& plan, const std::atomic<bool>& stop,
+                const std::function<void(std::int64_t, const TrialResult&)>& each) {
+  TrialQueue queue(plan.first, plan.trials(), plan.threads);
+  const Workers workers(plan, queue);
+  for (std::int64_t index = plan.first; index < plan.trials(); ++index) {
+    const auto trial = queue.take(stop);
+    if (!trial) return;
+    each(index, *trial);
+  }
+}
+
 std::vector<CampaignOutcome> run_campaign(const CampaignPlan& plan, const std::atomic<bool>& stop,
                                           const std::function<void(std::int64_t, const TrialResult&)>& each) {
-  TrialQueue queue(plan.trials(), plan.threads);
   std::vector<CampaignOutcome> outcomes;
-  const Workers workers(plan, queue);
-  for (std::size_t point = 0; point < plan.points.size() && !stop; ++point) {
-    CampaignOutcome outcome;
-    outcome.sweep = plan.points[point].sweep;
-    CampaignTable table;
-    for (std::int64_t i = 0; i < plan.runs; ++i) {
-      const auto trial = queue.take(stop);
-      if (!trial) break;
-      table.add(*trial);
-      merge(outcome, *trial);
-      if (each) each(static_cast<std::int64_t>(point) * plan.runs + i, *trial);
-    }
-    outcome.metrics = table.summary();
-    outcomes.push_back(std::move(outcome));
-  }
+  CampaignCell cell;
+  const auto close = [&] {
+    outcomes.push_back(cell.outcome(plan.points[outcomes.size()].sweep));
+    cell = {};
+  };
+  run_trials(plan, stop, [&](std::int64_t index, const TrialResult& trial) {
+    cell.add(trial);
+    if (each) each(index, trial);
+    if ((index + 1) % plan.runs == 0) close();
+  });
+  if (cell.trials() > 0) close();
   return outcomes;
-}
-
-Json campaign_metrics_json(const std::vector<CampaignOutcome>& outcomes) {
-  Json list = Json::array();
-  for (const CampaignOutcome& outcome : outcomes) {
-    for (const MetricSummary& metric : outcome.metrics) {
-      list.push_back(to_json(metric));
-      list.back()["sweep"] = outcome.sweep;
-    }
-  }
-  return list;
-}
-
-Json campaign_faults_json(const std::vector<CampaignOutcome>& outcomes) {
-  Json list = Json::array();
-  for (const CampaignOutcome& outcome : outcomes) {
-    for (const CampaignFault& fault : outcome.faults) {
-      list.push_back(to_json(fault.fault));
-      list.back()["runs"] = fault.runs;
-      list.back()["sweep"] = outcome.sweep;
-    }
-  }
-  return list;
-}
-
-Json campaign_design_json(const std::vector<CampaignOutcome>& outcomes) {
-  if (outcomes.size() == 1) return outcomes.front().design;
-  Json list = Json::array();
-  for (const CampaignOutcome& outcome : outcomes)
-    list.push_back({{"sweep", outcome.sweep}, {"design", outcome.design}});
-  return list;
-}
-
-Json campaign_warnings_json(const std::vector<CampaignOutcome>& outcomes) {
-  std::vector<std::string> all;
-  for (const CampaignOutcome& outcome : outcomes) {
-    for (const std::string& warning : outcome.warnings) {
-      if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
-    }
-  }
-  return all;
 }
 
 }  // namespace vigil

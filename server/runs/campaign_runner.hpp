@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,9 +29,17 @@ struct CampaignPlan {
   std::uint64_t first_seed = 1;
   int threads = 1;
   std::shared_ptr<const Trace> trace;
+  std::optional<std::int64_t> trace_id;  ///< in the log
+  std::int64_t first = 0;                ///< trials before this one are there already
+  int nice = 0;                          ///< of the workers' threads
+  /// Makes the trial of an index, on a worker's thread; empty: run_trial(). May throw TrialGivenUp.
+  std::function<TrialResult(std::int64_t index)> trial;
 
   std::int64_t trials() const { return runs * static_cast<std::int64_t>(points.size()); }
 };
+
+/// Thrown out of a trial that nobody waits for any more.
+struct TrialGivenUp {};
 
 /// Faults of one kind over all trials of a point. count is their sum; first and last the extremes.
 struct CampaignFault {
@@ -47,20 +56,44 @@ struct CampaignOutcome {
   std::int64_t ticks = 0;
 };
 
+/// One point of a campaign as it grows, trial by trial in their order.
+class CampaignCell {
+ public:
+  void add(const TrialResult& trial);
+  std::int64_t trials() const { return table_.trials(); }
+  std::vector<MetricSummary> summary() const { return table_.summary(); }
+  /// {"trials":{"finished","stopped","failed"},"ticks","metrics","paired","detection","faults","warnings","design"}
+  Json result() const;
+  CampaignOutcome outcome(Json sweep) const;
+  const Json& design() const { return sums_.design; }
+  void set_design(Json design) { sums_.design = std::move(design); }
+  std::string save() const { return table_.save(); }
+  void load(std::string_view bytes) { table_.load(bytes); }
+
+ private:
+  CampaignTable table_;
+  CampaignOutcome sums_;
+  std::int64_t finished_ = 0, stopped_ = 0, failed_ = 0;
+};
+
+/// "finished", "stopped" (a fault stopped a lane) or "failed" (there is no result).
+const char* trial_state(const TrialResult& trial);
+
+/// What is kept of a trial whose scenario could not be run.
+TrialResult failed_trial(const CampaignPlan& plan, std::int64_t index, const std::string& error);
+
 /// All points of a grid: the product of the values. Throws InputError where one of them is not valid.
 std::vector<CampaignPoint> make_grid(const Scenario& base,
                                      const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps);
+
+/// The trials from plan.first on; `each` is called in trial order, on the calling thread. Ends early when `stop`
+/// becomes true. Throws what a trial threw.
+void run_trials(const CampaignPlan& plan, const std::atomic<bool>& stop,
+                const std::function<void(std::int64_t index, const TrialResult&)>& each);
 
 /// `each` is called in trial order, on the calling thread. Ends early (with what is merged) when `stop` becomes true.
 /// Throws what a trial threw: InputError.
 std::vector<CampaignOutcome> run_campaign(const CampaignPlan& plan, const std::atomic<bool>& stop,
                                           const std::function<void(std::int64_t index, const TrialResult&)>& each);
-
-/// The metrics of every point, each with its "sweep".
-Json campaign_metrics_json(const std::vector<CampaignOutcome>& outcomes);
-Json campaign_faults_json(const std::vector<CampaignOutcome>& outcomes);
-/// {"sweep":design} of a sweep's points, or the design itself where there is one point.
-Json campaign_design_json(const std::vector<CampaignOutcome>& outcomes);
-Json campaign_warnings_json(const std::vector<CampaignOutcome>& outcomes);
 
 }  // namespace vigil

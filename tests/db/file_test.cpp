@@ -129,7 +129,15 @@ TEST(File, AnOlderSchemaIsBroughtUpToDateWithItsRuns) {
     recorder.finish();
     run = recorder.id;
   }
-  raw_sql(path, "DROP TABLE design; ALTER TABLE document DROP COLUMN designs; PRAGMA user_version=1");
+  raw_sql(path,
+          "DROP TABLE design; ALTER TABLE document DROP COLUMN designs; DROP TABLE campaign_cell; "
+          "DROP INDEX campaign_by_key; ALTER TABLE campaign DROP COLUMN key; ALTER TABLE campaign DROP COLUMN hash; "
+          "ALTER TABLE campaign_trial DROP COLUMN numbers; ALTER TABLE campaign_trial DROP COLUMN ticks; "
+          "ALTER TABLE campaign_trial DROP COLUMN faults; ALTER TABLE campaign_trial DROP COLUMN warnings; "
+          "ALTER TABLE campaign_trial DROP COLUMN error; ALTER TABLE campaign_trial DROP COLUMN run; "
+          "INSERT INTO campaign(state,request,trials,created) VALUES('interrupted','{}',3,1),('finished','{}',1,1); "
+          "INSERT INTO campaign_trial(campaign,position,seed,state,metrics) VALUES(2,0,9,'finished','[1]'); "
+          "PRAGMA user_version=1");
   EXPECT_NE(std::string::npos, refusal([&] { LogReader reader(path); }).find("older schema"));
   LogWriter writer(path);
   const LogReader reader(path);
@@ -137,7 +145,24 @@ TEST(File, AnOlderSchemaIsBroughtUpToDateWithItsRuns) {
   EXPECT_TRUE(reader.run(run)->designs.is_null());
   writer.put_design("0123456789abcdef", "a", {{"holds", true}}, "a problem");
   EXPECT_TRUE(reader.design("0123456789abcdef"));
+  EXPECT_EQ("cancelled", reader.campaign(1)->state) << "it kept too little to be gone on with";
+  EXPECT_EQ("finished", reader.campaign(2)->state);
+  EXPECT_EQ(Json::parse("[1]"), reader.trials(2).at(0).metrics);
   EXPECT_TRUE(check_log(path).ok);
+}
+
+TEST(File, CampaignsOfAnEndedServerAreInterruptedAndPausedOnesStayPaused) {
+  const Folder folder;
+  const std::string path = folder.file("a.db");
+  {
+    LogWriter writer(path);
+    for (const char* state : {"queued", "running", "paused", "finished", "cancelled"})
+      writer.update_campaign(writer.create_campaign({}).id, state);
+  }
+  LogWriter writer(path);
+  std::vector<std::string> states;
+  for (const CampaignRow& row : LogReader(path).campaigns()) states.push_back(row.state);
+  EXPECT_EQ(states, (std::vector<std::string>{"cancelled", "finished", "paused", "interrupted", "interrupted"}));
 }
 
 TEST(File, ABackupOfABusyLogOpensAndChecks) {

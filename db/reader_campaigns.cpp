@@ -1,0 +1,102 @@
+/// LogReader's campaigns, their cells and trials.
+#include <bit>
+
+#include "db/chunk.hpp"
+#include "db/reader_state.hpp"
+
+namespace vigil {
+namespace {
+
+Json parsed(const std::string& text) { return text.empty() ? Json() : Json::parse(text); }
+
+const std::string kCampaignColumns =
+    "SELECT id,state,request,result,trials,created,ended,error,"
+    "(SELECT count(*) FROM campaign_trial WHERE campaign=campaign.id),"
+    "(SELECT count(*) FROM campaign_trial WHERE campaign=campaign.id AND state<>'finished') FROM campaign ";
+
+CampaignRow campaign_row(const Statement& query) {
+  CampaignRow row;
+  row.id = query.integer(0);
+  row.state = query.text(1);
+  row.request = parsed(query.text(2));
+  row.result = parsed(query.text(3));
+  row.trials = query.integer(4);
+  row.created = query.integer(5);
+  row.ended = query.maybe_integer(6);
+  row.error = query.text(7);
+  row.done = query.integer(8);
+  row.failed = query.integer(9);
+  return row;
+}
+
+}  // namespace
+
+std::vector<CampaignRow> LogReader::campaigns() const {
+  const auto database = state_->lease();
+  auto query = database->cached(kCampaignColumns + "ORDER BY id DESC");
+  std::vector<CampaignRow> rows;
+  while (query.step()) rows.push_back(campaign_row(query));
+  return rows;
+}
+
+std::optional<CampaignRow> LogReader::campaign(std::int64_t id) const {
+  const auto database = state_->lease();
+  auto query = database->cached(kCampaignColumns + "WHERE id=?");
+  if (!query.bind(1, id).step()) return std::nullopt;
+  return campaign_row(query);
+}
+
+std::vector<TrialRow> LogReader::trials(std::int64_t campaign, TrialRange range) const {
+  const auto database = state_->lease();
+  auto query = database->cached(
+      "SELECT position,seed,state,numbers,ticks,faults,warnings,error,run,metrics FROM campaign_trial "
+      "WHERE campaign=? AND position BETWEEN ? AND ? ORDER BY position");
+  query.all(campaign, range.from, range.to);
+  std::vector<TrialRow> rows;
+  while (query.step()) {
+    TrialRow& row = rows.emplace_back();
+    row.index = query.integer(0);
+    row.seed = std::bit_cast<std::uint64_t>(query.integer(1));
+    row.state = query.text(2);
+    row.numbers = query.text(3);
+    row.ticks = query.integer(4);
+    if (!query.null(5)) row.faults = Json::parse(decompress_text(query.bytes(5)));
+    row.warnings = parsed(query.text(6));
+    row.error = query.text(7);
+    row.run = query.maybe_integer(8);
+    row.metrics = parsed(query.text(9));
+  }
+  return rows;
+}
+
+std::vector<CampaignCellRow> LogReader::campaign_cells(std::int64_t campaign) const {
+  const auto database = state_->lease();
+  auto query = database->cached("SELECT cell,sweep,designs FROM campaign_cell WHERE campaign=? ORDER BY cell");
+  query.bind(1, campaign);
+  std::vector<CampaignCellRow> rows;
+  while (query.step()) {
+    CampaignCellRow& row = rows.emplace_back();
+    row.cell = query.integer(0);
+    row.sweep = parsed(query.text(1));
+    row.designs = parsed(query.text(2));
+  }
+  return rows;
+}
+
+std::optional<CampaignCellRow> LogReader::campaign_cell(std::int64_t campaign, std::int64_t cell) const {
+  const auto database = state_->lease();
+  auto query = database->cached(
+      "SELECT cell,sweep,designs,design,columns,accumulators,result FROM campaign_cell WHERE campaign=? AND cell=?");
+  if (!query.all(campaign, cell).step()) return std::nullopt;
+  CampaignCellRow row;
+  row.cell = query.integer(0);
+  row.sweep = parsed(query.text(1));
+  row.designs = parsed(query.text(2));
+  row.design = parsed(query.text(3));
+  row.columns = parsed(query.text(4));
+  if (!query.null(5)) row.accumulators = decompress_text(query.bytes(5));
+  if (!query.null(6)) row.result = Json::parse(decompress_text(query.bytes(6)));
+  return row;
+}
+
+}  // namespace vigil

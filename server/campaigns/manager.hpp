@@ -1,0 +1,90 @@
+/// Campaigns of the server: one at a time on its own threads, the others in a queue. What a restart interrupts goes on
+/// by itself.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "db/reader.hpp"
+#include "db/writer.hpp"
+#include "server/campaigns/request.hpp"
+#include "server/hub/hub.hpp"
+
+namespace vigil {
+
+class RunManager;
+
+/// How fast the campaign goes that runs now.
+struct CampaignSpeed {
+  double trials_per_second = 0;
+  std::optional<double> seconds_left;  ///< empty before the first trials
+};
+
+class CampaignManager {
+ public:
+  /// All outlive the manager.
+  CampaignManager(LogWriter& log, const LogReader& reader, Hub& hub, RunManager& runs);
+  ~CampaignManager();  ///< stops
+  CampaignManager(const CampaignManager&) = delete;
+  CampaignManager& operator=(const CampaignManager&) = delete;
+
+  // Safe from any thread.
+
+  /// Queues what the last server left interrupted, oldest first.
+  void take_up();
+  /// Commits the campaign and queues it. Throws InputError where its first trial cannot be made, LogError (also
+  /// conflict, of the key), RunRefusal (full, or the server is stopping).
+  CreatedCampaign create(const CampaignRequest& request, const std::string& key, const std::string& hash);
+  /// state: "paused", "running", "cancelled". Returns once it is so and committed. Throws LogError (missing),
+  /// RunRefusal (state: it is over; busy: its trials did not end in time).
+  void set_state(std::int64_t id, const std::string& state);
+  /// Ends it and removes it with its trials. Throws as set_state().
+  void remove(std::int64_t id);
+  /// Empty where it does not run now.
+  std::optional<CampaignSpeed> speed(std::int64_t id) const;
+  /// The campaign that runs becomes "interrupted", those that wait, too.
+  void stop();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// What runs now; its members are guarded by mutex_, but for `stop`.
+  struct Current {
+    std::int64_t id = 0;
+    std::atomic<bool> stop{false};
+    std::string wanted;  ///< state it is to end in; empty: by itself
+    std::int64_t first = 0, done = 0, trials = 0, failed = 0;
+    Clock::time_point begin{}, told{};
+  };
+
+  void work();
+  void carry_out(std::int64_t id);
+  std::string run(std::int64_t id);
+  CampaignPlan prepare(std::int64_t id, const CampaignRequest& request);
+  Json designs_of(const Scenario& scenario, Json known);
+  void progress(std::int64_t done, bool failed);
+  void announce(std::int64_t id, const std::string& state);
+  CampaignSpeed speed_of(const Current& current) const;  ///< mutex_ is held
+  std::string state_of(std::int64_t id) const;           ///< of the log; throws LogError (missing)
+  bool end_current(std::int64_t id, const std::string& state, std::unique_lock<std::mutex>& lock);
+
+  LogWriter& log_;
+  const LogReader& reader_;
+  Hub& hub_;
+  RunManager& runs_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::int64_t> queue_;
+  Current current_;  ///< id 0: none
+  bool stopping_ = false;
+  std::thread worker_;
+};
+
+}  // namespace vigil

@@ -1,0 +1,69 @@
+// What a campaign is asked from outside: pause, go on, end, be gone.
+#include <algorithm>
+
+#include "server/campaigns/manager.hpp"
+#include "server/runs/refusal.hpp"
+
+namespace vigil {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(10);  // for trials that are under way to end
+
+}  // namespace
+
+std::string CampaignManager::state_of(std::int64_t id) const {
+  const auto row = reader_.campaign(id);
+  if (!row) throw LogError(LogError::Kind::missing, "There is no campaign " + std::to_string(id) + ".");
+  return row->state;
+}
+
+/// True where it ran and has ended now in that state, or by itself. Throws RunRefusal (busy).
+bool CampaignManager::end_current(std::int64_t id, const std::string& state, std::unique_lock<std::mutex>& lock) {
+  if (current_.id != id) return false;
+  current_.wanted = state;
+  current_.stop = true;
+  changed_.notify_all();
+  if (!changed_.wait_for(lock, kPatience, [&] { return current_.id != id; }))
+    throw RunRefusal(RunRefusal::Kind::busy, "The campaign did not end in time; try again.");
+  return true;
+}
+
+void CampaignManager::set_state(std::int64_t id, const std::string& state) {
+  {
+    std::unique_lock lock(mutex_);
+    if (state == "running") {
+      if (current_.id == id || std::find(queue_.begin(), queue_.end(), id) != queue_.end()) return;
+    } else {
+      end_current(id, state, lock);
+      std::erase(queue_, id);
+    }
+  }
+  const std::string old = state_of(id);
+  if (old == state) return;
+  if (old == "finished" || old == "cancelled" || old == "failed")
+    throw RunRefusal(RunRefusal::Kind::state, "The campaign is over: it is " + old + ".");
+  if (state != "running") {
+    log_.update_campaign(id, state);
+    announce(id, state);
+    return;
+  }
+  log_.update_campaign(id, "queued");
+  announce(id, "queued");
+  {
+    const std::lock_guard lock(mutex_);
+    queue_.push_back(id);
+  }
+  changed_.notify_all();
+}
+
+void CampaignManager::remove(std::int64_t id) {
+  {
+    std::unique_lock lock(mutex_);
+    end_current(id, "cancelled", lock);
+    std::erase(queue_, id);
+  }
+  if (!log_.delete_campaign(id)) state_of(id);  // throws
+  announce(id, "deleted");
+}
+
+}  // namespace vigil
