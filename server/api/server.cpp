@@ -41,10 +41,12 @@ struct Server::State {
         reader(options.db),
         hub(options.hub),
         runs(log, reader, hub, options.runs),
+        campaigns(log, reader, hub, runs),
         services{log,
                  reader,
                  hub,
                  runs,
+                 campaigns,
                  [this] { return front->stats(); },
                  [this]() -> const Routes& { return front->routes(); },
                  [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
@@ -61,6 +63,7 @@ struct Server::State {
   Hub hub;
   std::atomic<RunId> demo{-1};
   RunManager runs;
+  CampaignManager campaigns;
   Services services;
   std::unique_ptr<Front> front;
 };
@@ -70,6 +73,7 @@ Server::~Server() { stop(); }
 
 void Server::start() {
   state_->front->start();
+  state_->campaigns.take_up();
   if (!state_->options.demo) return;
   try {
     state_->demo = start_demo(state_->runs, state_->log, state_->reader);
@@ -84,6 +88,7 @@ int Server::port() const { return state_->front->port(); }
 void Server::stop() {
   if (!state_) return;
   // Runs first: their viewers hear how they ended. Handlers that wait for a run are let go by its end.
+  state_->campaigns.stop();
   state_->runs.stop();
   state_->front->stop();
   state_.reset();

@@ -7,6 +7,7 @@
 
 #include "db/reader.hpp"
 #include "db/writer.hpp"
+#include "server/campaigns/manager.hpp"
 #include "server/front/front.hpp"
 #include "server/hub/hub.hpp"
 #include "server/runs/manager.hpp"
@@ -19,6 +20,7 @@ struct Services {
   const LogReader& reader;
   Hub& hub;
   RunManager& runs;
+  CampaignManager& campaigns;
   std::function<FrontStats()> stats;           ///< of the front
   std::function<const Routes&()> routes;       ///< the table as the front has it, its own routes included
   std::function<std::optional<RunId>()> demo;  ///< the demo run, if one was started
@@ -35,6 +37,8 @@ void add_check_routes(Routes& routes, Services& services);
 void add_compatibility_routes(Routes& routes, Services& services);
 void add_data_routes(Routes& routes, Services& services);
 void add_compare_routes(Routes& routes, Services& services);
+void add_campaign_routes(Routes& routes, Services& services);
+void add_trial_routes(Routes& routes, Services& services);  ///< called by the one above
 void add_bundle_routes(Routes& routes, Services& services);
 void add_trace_routes(Routes& routes, Services& services);
 void add_ingest_routes(Routes& routes, Services& services);

@@ -67,6 +67,7 @@ Routes make_routes(Services& services) {
   add_compatibility_routes(routes, services);
   add_data_routes(routes, services);
   add_compare_routes(routes, services);
+  add_campaign_routes(routes, services);
   add_bundle_routes(routes, services);
   add_trace_routes(routes, services);
   add_ingest_routes(routes, services);

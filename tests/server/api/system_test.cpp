@@ -60,6 +60,9 @@ class EveryRoute : public SystemTest {
     bundle_ = client_->get("/api/v1/runs/" + run_ + "/bundle").body;
     document_ = client_->get("/api/v1/scenarios/consensus").body;
     client_->send("PUT", "/api/v1/scenarios/mine", document_);
+    campaign_ = client_->post("/api/v1/campaigns", {{"scenario", "consensus"}, {"runs", 2}}).json.at("id");
+    ASSERT_TRUE(
+        eventually([&] { return client_->get("/api/v1/campaigns/" + campaign_).json.at("state") == "finished"; }));
     design_ = client_->post("/api/v1/designs", {{"scenario", "observer-single"}}).json.at("items").at(0).at("key");
   }
 
@@ -70,10 +73,13 @@ class EveryRoute : public SystemTest {
       const std::size_t place = path.find(name);
       if (place != std::string::npos) path.replace(place, name.size(), value);
     };
-    put("{id}", scenario ? (method == "get" ? "consensus" : "mine") : trace ? trace_ : run_);
+    const bool campaign = path.find("/campaigns/") != std::string::npos;
+    put("{id}", campaign ? campaign_ : scenario ? (method == "get" ? "consensus" : "mine") : trace ? trace_ : run_);
     put("{run}", fed_);
     put("{aid}", "a1");
     put("{key}", design_);
+    put("{cell}", "0");
+    put("{index}", "1");
     if (path.ends_with("/compare")) path += "?ids=" + run_ + "," + fed_;
     return path;
   }
@@ -84,6 +90,7 @@ class EveryRoute : public SystemTest {
     if (path.ends_with("/import")) return bundle_;
     if (path.ends_with("/fork")) return R"({"k":2})";
     if (path.ends_with("/attacks")) return R"({"type":"dos","on":["link:1-2"]})";
+    if (path.ends_with("/campaigns")) return R"({"scenario":"consensus","runs":2})";
     if (path.ends_with("/runs") || path.ends_with("/designs") || path.ends_with("/systems/check") ||
         path.ends_with("/compatibility"))
       return R"({"scenario":"consensus"})";
@@ -120,7 +127,7 @@ class EveryRoute : public SystemTest {
     return status;
   }
 
-  std::string run_, fed_, trace_, bundle_, document_, design_;
+  std::string campaign_, run_, fed_, trace_, bundle_, document_, design_;
 };
 
 TEST_F(EveryRoute, OfTheDescriptionAnswers) {
