@@ -11,7 +11,7 @@ Json parsed(const std::string& text) { return text.empty() ? Json() : Json::pars
 
 const std::string kCampaignColumns =
     "SELECT id,state,request,result,trials,created,ended,error,"
-    "(SELECT count(*) FROM campaign_trial WHERE campaign=campaign.id),"
+    "(SELECT coalesce(max(position)+1,0) FROM campaign_trial WHERE campaign=campaign.id),"
     "(SELECT count(*) FROM campaign_trial WHERE campaign=campaign.id AND state<>'finished') FROM campaign ";
 
 CampaignRow campaign_row(const Statement& query) {

@@ -167,7 +167,7 @@ struct CampaignRow {
   Json request;
   Json result;              ///< of files before schema 3; null since: results are the cells'
   std::int64_t trials = 0;  ///< asked for
-  std::int64_t done = 0;    ///< trials that have a row: always the first ones
+  std::int64_t done = 0;    ///< trials that have a row: always the first so many
   std::int64_t failed = 0;  ///< of those, trials that have no result or lost a lane
   WallTime created = 0;
   std::optional<WallTime> ended;

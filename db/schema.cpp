@@ -96,6 +96,7 @@ ALTER TABLE campaign_trial ADD COLUMN faults BLOB;
 ALTER TABLE campaign_trial ADD COLUMN warnings TEXT;
 ALTER TABLE campaign_trial ADD COLUMN error TEXT NOT NULL DEFAULT '';
 ALTER TABLE campaign_trial ADD COLUMN run INTEGER;
+CREATE INDEX campaign_trial_lost ON campaign_trial(campaign) WHERE state<>'finished';
 CREATE TABLE campaign_cell(
   campaign INTEGER NOT NULL REFERENCES campaign(id) ON DELETE CASCADE, cell INTEGER NOT NULL, sweep TEXT NOT NULL,
   designs TEXT, design TEXT, columns TEXT, accumulators BLOB, result BLOB, PRIMARY KEY(campaign,cell)) WITHOUT ROWID;

@@ -21,7 +21,7 @@ Json campaign_item(const CampaignRow& row, const Services& services) {
             {"runs", runs},
             {"first_seed", request.value("first_seed", Json())},
             {"sweep", request.value("sweep", Json::object())},
-            {"cells", row.trials / std::max<std::int64_t>(runs, 1)},
+            {"points", row.trials / std::max<std::int64_t>(runs, 1)},
             {"threads", request.value("threads", 0)},
             {"samples", request.value("samples", false)},
             {"tags", request.value("tags", Json::array())},

@@ -158,21 +158,9 @@ Json change_doc() {
       .what();
 }
 
-}  // namespace
-
-void add_campaign_routes(Routes& routes, Services& services) {
+/// Routes of one campaign.
+void add_single_routes(Routes& routes, Services& services) {
   const auto one = [] { return doc::Operation().problem(404, "There is no such campaign."); };
-  routes.add(make_route(
-      "POST", "/api/v1/campaigns", [&services](const auto& q, auto& r) { create(services, q, r); }, "Start a campaign",
-      create_doc()));
-  routes.add(make_route(
-      "GET", "/api/v1/campaigns", [&services](const auto& q, auto& r) { list(services, q, r); },
-      "Campaigns, newest first",
-      doc::Operation()
-          .parameter(doc::query("limit", doc::integer_schema(1, 500), "items a page, 50 without"))
-          .parameter(doc::query("cursor", doc::text_schema(), "`next` of the page before"))
-          .answer(200, "A page of campaigns.", doc::page_schema(kCampaign))
-          .what()));
   routes.add(make_route(
       "GET", "/api/v1/campaigns/{id}", [&services](const auto& q, auto& r) { show(services, q, r); },
       "A campaign: request, state, progress, cells, results; as CSV the results",
@@ -194,6 +182,23 @@ void add_campaign_routes(Routes& routes, Services& services) {
         r.empty();
       },
       "Delete a campaign with its trials; runs that keep samples stay", one().empty(204, "It is gone.").what()));
+}
+
+}  // namespace
+
+void add_campaign_routes(Routes& routes, Services& services) {
+  routes.add(make_route(
+      "POST", "/api/v1/campaigns", [&services](const auto& q, auto& r) { create(services, q, r); }, "Start a campaign",
+      create_doc()));
+  routes.add(make_route(
+      "GET", "/api/v1/campaigns", [&services](const auto& q, auto& r) { list(services, q, r); },
+      "Campaigns, newest first",
+      doc::Operation()
+          .parameter(doc::query("limit", doc::integer_schema(1, 500), "items a page, 50 without"))
+          .parameter(doc::query("cursor", doc::text_schema(), "`next` of the page before"))
+          .answer(200, "A page of campaigns.", doc::page_schema(kCampaign))
+          .what()));
+  add_single_routes(routes, services);
   add_trial_routes(routes, services);
 }
 

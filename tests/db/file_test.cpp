@@ -131,7 +131,8 @@ TEST(File, AnOlderSchemaIsBroughtUpToDateWithItsRuns) {
   }
   raw_sql(path,
           "DROP TABLE design; ALTER TABLE document DROP COLUMN designs; DROP TABLE campaign_cell; "
-          "DROP INDEX campaign_by_key; ALTER TABLE campaign DROP COLUMN key; ALTER TABLE campaign DROP COLUMN hash; "
+          "DROP INDEX campaign_by_key; DROP INDEX campaign_trial_lost; ALTER TABLE campaign DROP COLUMN key; ALTER "
+          "TABLE campaign DROP COLUMN hash; "
           "ALTER TABLE campaign_trial DROP COLUMN numbers; ALTER TABLE campaign_trial DROP COLUMN ticks; "
           "ALTER TABLE campaign_trial DROP COLUMN faults; ALTER TABLE campaign_trial DROP COLUMN warnings; "
           "ALTER TABLE campaign_trial DROP COLUMN error; ALTER TABLE campaign_trial DROP COLUMN run; "
