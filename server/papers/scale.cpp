@@ -34,6 +34,16 @@ double Scale::of(double value) const { return log_ ? std::log10(value) : value; 
 double Scale::at(double value) const { return from_ + (of(value) - low_) / (high_ - low_) * (to_ - from_); }
 
 std::vector<double> Scale::ticks() const {
+  std::vector<double> result;
+  if (log_ && high_ - low_ < 2) {
+    for (double power = std::floor(low_); power <= high_; ++power) {
+      for (const double factor : {1.0, 2.0, 5.0}) {
+        const double value = factor * std::pow(10, power);
+        if (of(value) >= low_ && of(value) <= high_) result.push_back(value);
+      }
+    }
+    return result;
+  }
   const double raw = (high_ - low_) / 5, power = std::pow(10, std::floor(std::log10(raw)));
   double step = power;
   for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
@@ -41,7 +51,6 @@ std::vector<double> Scale::ticks() const {
     if (step >= raw) break;
   }
   if (log_) step = std::max(1.0, std::ceil(step));
-  std::vector<double> result;
   for (double value = std::ceil(low_ / step - 1e-9) * step; value <= high_ + 1e-9 * step; value += step) {
     const double clean = std::abs(value) < 1e-9 * step ? 0 : value;
     result.push_back(log_ ? std::pow(10, clean) : clean);
