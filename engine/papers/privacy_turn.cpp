@@ -193,6 +193,10 @@ const char* const kReason =
     "so no "
     "printed reading can be run. Turn rate, start, H, kappa and lambda are not given. ";
 
+const char* const kCovered =
+    "The guarantee is for one published mean and a difference at its window's last instant; differences of "
+    "means, single instants and packets tell more.";
+
 }  // namespace
 
 std::vector<Item> turning_target_items() {
@@ -234,8 +238,7 @@ std::vector<Item> turning_target_items() {
        "privacy, sections 3.2, 3.5 and 5",
        kId,
        "After correction where the privacy loss measured in runs exceeds ln 2 in 6 to 14 % of them (design: 10 %).",
-       text + "The guarantee is for one published mean and a difference at its window's last instant; differences of "
-              "means, single instants and packets tell more.",
+       text + kCovered,
        neighbour_samples}};
 }
 

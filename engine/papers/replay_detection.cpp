@@ -152,6 +152,18 @@ Findings mixed(Laboratory& laboratory) {
   return found;
 }
 
+const char* const kStealth =
+    "A replay that also drives the estimator and the controller is stealthy: flags during it are as frequent as "
+    "false "
+    "alarms, and the threshold (27)-(28) un-flags itself within a few samples. Capping zeta, freezing the threshold "
+    "while flagged and a keyed sensor watermark mend both. The fixed threshold does better than the printed dynamic "
+    "one, not worse.";
+const char* const kAccuracy =
+    "The printed accuracy is reached only where the estimate in the residual is not attacked, a literal reading of "
+    "(29), and the threshold is frozen while flagged. The detection rate is not defined; accuracy per sample is the "
+    "most consistent reading. The size of the zonotope method's watermark is not given. That a running mean settles "
+    "says nothing about quality.";
+
 }  // namespace
 
 std::vector<Item> replay_detection_items() {
@@ -163,11 +175,7 @@ std::vector<Item> replay_detection_items() {
        "Reproduced where the method as written flags 90 % of the attack and at most 20 % of the calm ticks in both "
        "cases; "
        "after correction where the profile `repaired` does.",
-       "A replay that also drives the estimator and the controller is stealthy: flags during it are as frequent as "
-       "false "
-       "alarms, and the threshold (27)-(28) un-flags itself within a few samples. Capping zeta, freezing the threshold "
-       "while flagged and a keyed sensor watermark mend both. The fixed threshold does better than the printed dynamic "
-       "one, not worse.",
+       kStealth,
        non_gaussian},
       {"003/fig4",
        {"Detection under bounded noise: function, threshold and alarms", "有界噪声下的检测：检测函数、阈值与报警"},
@@ -187,10 +195,7 @@ std::vector<Item> replay_detection_items() {
        "Reproduced where the method as written has an accuracy of 98 % at least over both cases; after correction "
        "where "
        "the profile `eq29_freeze` has, and the zonotope method (rho 3) has 96 to 99 %.",
-       "The printed accuracy is reached only where the estimate in the residual is not attacked, a literal reading of "
-       "(29), and the threshold is frozen while flagged. The detection rate is not defined; accuracy per sample is the "
-       "most consistent reading. The size of the zonotope method's watermark is not given. That a running mean settles "
-       "says nothing about quality.",
+       kAccuracy,
        accuracies},
       {"003/fig7",
        {"Detection function and thresholds under mixed noise", "混合噪声下的检测函数与阈值"},
