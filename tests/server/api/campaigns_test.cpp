@@ -121,6 +121,26 @@ TEST_F(Campaigns, SamplesAreKeptAsRuns) {
   EXPECT_EQ(client_->get("/api/v1/runs/" + run + "/samples?signals=truth.*").json.at("k").size(), 7u);
 }
 
+// A document may be valid and still not runnable: nobody hears anybody without a network.
+TEST_F(Campaigns, ATrialThatCannotBeRunIsKeptWithItsReason) {
+  const std::string id = begin_campaign({{"scenario", "privacy-turn"},
+                                         {"patch", {{"time", {{"steps", 5}}}}},
+                                         {"runs", 2},
+                                         {"sweep", {{"network.graph", {"centre", "none"}}}}});
+  ASSERT_TRUE(reaches(id, "finished"));
+  const Json trials{{"finished", 2}, {"stopped", 0}, {"failed", 2}};
+  EXPECT_EQ(look(id).at("trials"), trials);
+  EXPECT_EQ(look(id).at("progress").at("failed"), 2);
+  const std::string path = "/api/v1/campaigns/" + id + "/trials";
+  const Json failed = client_->get(path + "?cell=1&state=failed").json.at("items");
+  ASSERT_EQ(failed.size(), 2u);
+  EXPECT_FALSE(failed.at(0).at("error").get<std::string>().empty());
+  const Json alone = client_->get(path + "/2").json.at("request");
+  const Answer refused = client_->post("/api/v1/runs", alone);
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_NE(refused.body.find("network"), std::string::npos) << refused.body;
+}
+
 TEST_F(Campaigns, TheSameKeyStartsNoSecondOne) {
   const Json body{{"scenario", "consensus"}, {"runs", 1}};
   const Answer first = client_->post("/api/v1/campaigns", body, {{"Idempotency-Key", "k"}});
