@@ -1,0 +1,47 @@
+/// Differences between lanes on the same draws, as points with their intervals.
+import type { PairedDifference } from '../../api/campaigns';
+import { colour, laneToken } from '../../chart/colours';
+import { fit } from '../../chart/scale';
+import { metricId } from './stats';
+import { boxOf, cut, place, rangeOf, xAxis, xTitle } from './plot';
+import type { Mark, Scene } from './scene';
+
+/** Of one metric all differences `lane - base`: pairs that the server has the other way round are turned. */
+export function againstBase(paired: readonly PairedDifference[], metric: string, base: string): PairedDifference[] {
+  const less = (value: number | null): number | null => (value === null ? null : value === 0 ? 0 : -value);
+  return paired.flatMap((one) => {
+    if (metricId(one) !== metric) return [];
+    if (one.base === base) return [one];
+    if (one.lane !== base) return [];
+    return [{ ...one, base, lane: one.base, mean: less(one.mean), lo: less(one.hi), hi: less(one.lo) }];
+  });
+}
+
+export function basesOf(paired: readonly PairedDifference[], metric: string): string[] {
+  return [...new Set(paired.flatMap((one) => (metricId(one) === metric ? [one.base, one.lane] : [])))];
+}
+
+export const rowHeight = 26;
+
+export function pairedScene(rows: readonly PairedDifference[], lanes: readonly string[], title: string, width: number, height: number): Scene {
+  const box = boxOf(width, height, { left: Math.min(150, width / 3), bottom: 38 });
+  const scale = fit(rangeOf([0, ...rows.flatMap((one) => [one.mean, one.lo, one.hi])]), false);
+  const x = (value: number): number => place.x(box, scale, value);
+  const zero = x(0);
+  const marks: Mark[] = [...xAxis(box, scale), xTitle(box, cut(title, box.right - box.left)), { type: 'line', points: [zero, box.top, zero, box.bottom], colour: colour('ink'), width: 1.5, dash: [6, 4] }];
+  rows.forEach((one, i) => {
+    const y = box.top + (i + 0.5) * ((box.bottom - box.top) / rows.length);
+    const token = colour(laneToken(Math.max(0, lanes.indexOf(one.lane))));
+    marks.push({ type: 'text', x: box.left - 8, y, text: cut(one.lane, box.left - 16), fill: colour('ink'), align: 'end' });
+    if (one.lo !== null && one.hi !== null) marks.push({ type: 'line', points: [x(one.lo), y, x(one.hi), y, NaN, NaN, x(one.lo), y - 5, x(one.lo), y + 5, NaN, NaN, x(one.hi), y - 5, x(one.hi), y + 5], colour: token, width: 1.8 });
+    if (one.mean !== null) marks.push({ type: 'dot', x: x(one.mean), y, radius: 3.5, fill: token });
+  });
+  return { width, height, marks };
+}
+
+export function pairedTable(rows: readonly PairedDifference[]): { columns: string[]; rows: (string | number)[][] } {
+  return {
+    columns: ['lane', 'base', 'metric', 'mean', 'se', 'lo', 'hi', 'p', 'n'],
+    rows: rows.map((one) => [one.lane, one.base, metricId(one), one.mean ?? '', one.se ?? '', one.lo ?? '', one.hi ?? '', one.p ?? '', one.n]),
+  };
+}
