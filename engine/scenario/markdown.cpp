@@ -39,18 +39,19 @@ std::string kind(const std::string& heading, const std::string& where) {
   for (const auto& entry : Registry<Make>::all()) {
     text +=
         "### `" + entry.id + "`\n\n" + entry.title.en + " / " + entry.title.zh + ". Source: " + entry.source + ".\n\n";
-    if (entry.params.all().empty()) {
-      text += "No parameters.\n\n";
-      continue;
-    }
-    text += "| name | symbol | default | unit | accepts | live | meaning |\n|---|---|---|---|---|---|---|\n";
-    for (const auto& param : entry.params.all()) text += row(param);
-    text += "\n";
+    text += parameters_table(entry.params);
   }
   return text;
 }
 
 }  // namespace
+
+std::string parameters_table(const ParamTable& params) {
+  if (params.all().empty()) return "No parameters.\n\n";
+  std::string text = "| name | symbol | default | unit | accepts | live | meaning |\n|---|---|---|---|---|---|---|\n";
+  for (const auto& param : params.all()) text += row(param);
+  return text + "\n";
+}
 
 std::string parameters_markdown() {
   std::string text =
