@@ -4,6 +4,20 @@
 namespace vigil {
 namespace {
 
+std::vector<Correction> fusion_corrected() {
+  return {{"(2-52) divides the bearing row by r where its square belongs; with the printed derivative the fused "
+           "error is many times larger (specification (privacy), section 2.6).",
+           "printed_jacobian", true},
+          {"(2-11) prints `F_i` on both sides; the right factor is `F_j` (section 1.3)."},
+          {"(2-4) propagates with a matrix where `f` belongs, (2-5) linearises at the wrong time and (2-6) uses "
+           "`A_i` twice; the filter as printed is biased (section 1.3)."},
+          {"(3-8) lacks the inverse of the innovation's covariance, and (3-9) prints a minus where the noise is "
+           "added; corrected, they give the printed numbers (4-33) (section 1.3)."},
+          {"The source always inverts `P`, which is singular with a common start or equal predictions. Rao's "
+           "unified least squares is used there, `M = P + s e e'`, exact for every `P` (section 1.4)."},
+          {"No initial conditions are given: a common start, with weights `I/L` at tick 0 (section 1.2)."}};
+}
+
 MethodWords fusion() {
   return {
       .id = "fusion",
@@ -30,22 +44,7 @@ MethodWords fusion() {
       .cost =
           "A tick: O(L n^3) for L filters of n states, O(L^2 n^3) for their cross-covariances, O((n L)^3) for the "
           "weights; O(L n^2) beside the protection once they have settled. A message carries n numbers.",
-      .corrected =
-          {Correction{
-               "(2-52) divides the bearing row by r where its square belongs; with the printed derivative the fused "
-               "error is many times larger (specification (privacy), section 2.6).",
-               "printed_jacobian", true},
-           Correction{"(2-11) prints `F_i` on both sides; the right factor is `F_j` (section 1.3)."},
-           Correction{
-               "(2-4) propagates with a matrix where `f` belongs, (2-5) linearises at the wrong time and (2-6) uses "
-               "`A_i` twice; the filter as printed is biased (section 1.3)."},
-           Correction{
-               "(3-8) lacks the inverse of the innovation's covariance, and (3-9) prints a minus where the noise is "
-               "added; corrected, they give the printed numbers (4-33) (section 1.3)."},
-           Correction{
-               "The source always inverts `P`, which is singular with a common start or equal predictions. Rao's "
-               "unified least squares is used there, `M = P + s e e'`, exact for every `P` (section 1.4)."},
-           Correction{"No initial conditions are given: a common start, with weights `I/L` at tick 0 (section 1.2)."}},
+      .corrected = fusion_corrected(),
   };
 }
 

@@ -4,6 +4,22 @@
 namespace vigil {
 namespace {
 
+std::vector<Correction> contamination_corrected() {
+  return {{"The printed choice is called optimal; it is a heuristic, and the exact trace finds better sets "
+           "(specification (privacy), section 2.2).",
+           "mode", "norm"},
+          {"Theorem 2.1 asserts a bounded user for every set, which is false; sets that leave it unbounded are "
+           "not chosen (section 2.2).",
+           "bounded_check", false},
+          {"The null space is trivial where `m <= n`, and exact zeros are sent; `null_dim` is reported and the "
+           "lane warns (section 2.1)."},
+          {"`sum gamma = s0` is written a sensor, but sets are counted over all, and gamma = 1 means kept: m "
+           "counts contaminated components over all sensors (section 2.1)."},
+          {"(2-30) has `H_i P_ij H_i` and a wrong factor in its third term, (2-31) and (2-43) take `H` of the "
+           "wrong time; the recursion used follows from (2-28), (2-29) (section 2.3)."},
+          {"(2-26) drops the cross terms between errors and state; the full form is used (section 2.4)."}};
+}
+
 MethodWords contamination() {
   return {
       .id = "contamination",
@@ -31,24 +47,7 @@ MethodWords contamination() {
           "A tick: (n L over m) spectral norms of O((n L)^3) for the choice among the sets of m of n L components "
           "(more than 20000 sets are refused), and O(L^2 n^3) for the user's covariances; neither once all have "
           "settled.",
-      .corrected =
-          {Correction{"The printed choice is called optimal; it is a heuristic, and the exact trace finds better sets "
-                      "(specification (privacy), section 2.2).",
-                      "mode", "norm"},
-           Correction{
-               "Theorem 2.1 asserts a bounded user for every set, which is false; sets that leave it unbounded are "
-               "not chosen (section 2.2).",
-               "bounded_check", false},
-           Correction{
-               "The null space is trivial where `m <= n`, and exact zeros are sent; `null_dim` is reported and the "
-               "lane warns (section 2.1)."},
-           Correction{
-               "`sum gamma = s0` is written a sensor, but sets are counted over all, and gamma = 1 means kept: m "
-               "counts contaminated components over all sensors (section 2.1)."},
-           Correction{
-               "(2-30) has `H_i P_ij H_i` and a wrong factor in its third term, (2-31) and (2-43) take `H` of the "
-               "wrong time; the recursion used follows from (2-28), (2-29) (section 2.3)."},
-           Correction{"(2-26) drops the cross terms between errors and state; the full form is used (section 2.4)."}},
+      .corrected = contamination_corrected(),
   };
 }
 
@@ -127,6 +126,21 @@ MethodWords dp_sensors() {
   };
 }
 
+std::vector<Correction> two_step_corrected() {
+  return {{"(4-12) sums tq + 1 terms for t > tq and tq before; then the printed decoder (4-18) does not telescope "
+           "and the user diverges. tq terms agree with the rest (specification (privacy), section 4.2).",
+           "sum", "printed"},
+          {"(4-24)-(4-27) add increments as if independent; all but alpha telescope, and the printed formula "
+           "over-estimates the eavesdropper's error. The exact one is used (section 4.4)."},
+          {"Theorem 4.2, an infinite index, holds for the differencing eavesdropper only: one that takes the "
+           "window's mean is bounded. Both can be chosen (section 4.4)."},
+          {"That `Pi` depends on `Wc`, and (4-14) being a matrix inequality, are passed over; the order of design "
+           "above is not circular, and all sensors share the vector alpha (section 4.1)."},
+          {"The guarantee is for one message alone; the exact loss of a later message, of differences and of the "
+           "stream is reported beside it (section 4.5)."},
+          {"tq, zeta, q_alpha, epsilon and delta are not in the text (section 4.7); they are parameters."}};
+}
+
 MethodWords two_step() {
   return {
       .id = "two_step",
@@ -148,24 +162,7 @@ MethodWords two_step() {
            "The differencing eavesdropper has `tr(W Pp W') + c(t) q_alpha tr(W Pi W')`, `c(t)` growing by 2 every tq "
            "ticks; others take the window's mean, the messages as they are, or zero."},
       .cost = "O((n L)^2) a tick with all matrices made once; memory of tq n L numbers.",
-      .corrected =
-          {Correction{
-               "(4-12) sums tq + 1 terms for t > tq and tq before; then the printed decoder (4-18) does not telescope "
-               "and the user diverges. tq terms agree with the rest (specification (privacy), section 4.2).",
-               "sum", "printed"},
-           Correction{
-               "(4-24)-(4-27) add increments as if independent; all but alpha telescope, and the printed formula "
-               "over-estimates the eavesdropper's error. The exact one is used (section 4.4)."},
-           Correction{
-               "Theorem 4.2, an infinite index, holds for the differencing eavesdropper only: one that takes the "
-               "window's mean is bounded. Both can be chosen (section 4.4)."},
-           Correction{
-               "That `Pi` depends on `Wc`, and (4-14) being a matrix inequality, are passed over; the order of design "
-               "above is not circular, and all sensors share the vector alpha (section 4.1)."},
-           Correction{
-               "The guarantee is for one message alone; the exact loss of a later message, of differences and of the "
-               "stream is reported beside it (section 4.5)."},
-           Correction{"tq, zeta, q_alpha, epsilon and delta are not in the text (section 4.7); they are parameters."}},
+      .corrected = two_step_corrected(),
   };
 }
 
