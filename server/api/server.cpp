@@ -5,7 +5,9 @@
 #include <atomic>
 #include <utility>
 
+#include "server/api/papers_routes.hpp"
 #include "server/api/services.hpp"
+#include "server/papers/manager.hpp"
 #include "server/runs/demo.hpp"
 
 namespace vigil {
@@ -42,6 +44,7 @@ struct Server::State {
         hub(options.hub),
         runs(log, reader, hub, options.runs),
         campaigns(log, reader, hub, runs),
+        papers(log, reader, runs),
         services{log,
                  reader,
                  hub,
@@ -52,6 +55,7 @@ struct Server::State {
                  [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
                  options.front.tokens.required()} {
     Routes routes = make_routes(services);
+    add_papers_routes(routes, papers);
     if (files.empty()) routes.add(no_page_route());
     front = std::make_unique<Front>(options.front, std::move(routes), hub, std::move(files));
   }
@@ -64,6 +68,7 @@ struct Server::State {
   std::atomic<RunId> demo{-1};
   RunManager runs;
   CampaignManager campaigns;
+  PapersManager papers;
   Services services;
   std::unique_ptr<Front> front;
 };
@@ -88,6 +93,7 @@ int Server::port() const { return state_->front->port(); }
 void Server::stop() {
   if (!state_) return;
   // Runs first: their viewers hear how they ended. Handlers that wait for a run are let go by its end.
+  state_->papers.stop();
   state_->campaigns.stop();
   state_->runs.stop();
   state_->front->stop();

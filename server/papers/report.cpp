@@ -80,7 +80,8 @@ std::string item_html(const Measured& one) {
   const std::string key = escaped(item.key);
   std::string html = "<h2 id=\"" + key + "\">" + key + " · " + escaped(item.title.en) + "</h2><p class=\"meta\">" +
                      escaped(item.title.zh) + " · specification: " + escaped(item.spec) + " · scenario <code>" +
-                     escaped(item.scenario) + "</code> · " + std::to_string(one.findings.runs) + " runs</p><p>" +
+                     escaped(item.scenario) + "</code> · " + std::to_string(one.findings.runs) + " runs" +
+                     (one.made.empty() ? "" : " · " + escaped(one.made)) + "</p><p>" +
                      verdict_html(verdict_of(one.findings)) + ". " + escaped(item.reason) + "</p>";
   html += "<p class=\"meta\">" + escaped(item.rule) + "</p><table><tr><th>reading</th><th>what</th><th>paper</th>" +
           "<th>ours</th><th>band</th><th></th></tr>";
@@ -93,11 +94,15 @@ std::string item_html(const Measured& one) {
 }  // namespace
 
 std::string report_html(const std::vector<Measured>& measured, std::int64_t runs, std::uint64_t first_seed) {
+  return report_html(measured, "Vigil " + std::string(version()) + ", " + std::to_string(runs) + " runs from seed " +
+                                   std::to_string(first_seed));
+}
+
+std::string report_html(const std::vector<Measured>& measured, const std::string& made) {
   std::string html =
       "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>The papers, run again</title>" +
-      style() + "</head><body><h1>The papers, run again</h1><p class=\"meta\">Vigil " +
-      escaped(std::string(version())) + ", " + std::to_string(runs) + " runs from seed " + std::to_string(first_seed) +
+      style() + "</head><body><h1>The papers, run again</h1><p class=\"meta\">" + escaped(made) +
       ". Every number and curve comes from runs made for this page; ± is one standard error.</p>";
   html += "<table><tr><th>item</th><th>title</th><th>paper</th><th>ours</th><th>verdict</th></tr>";
   for (const Measured& one : measured) {

@@ -1,6 +1,7 @@
 /// A laboratory with threads: campaigns as `vigil campaign` runs them, and runs whose samples are kept.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <string>
@@ -16,6 +17,8 @@ struct LaboratoryOptions {
   int threads = 1;
   std::function<Json(const DesignTask&)> gains;  ///< the record of a task; not called from more than one thread
   std::function<void(std::int64_t)> progress;    ///< runs done so far, all together
+  const std::atomic<bool>* stop = nullptr;       ///< once true, whatever is asked for throws TrialGivenUp
+  int nice = 0;                                  ///< of the threads
 };
 
 class ThreadedLaboratory final : public papers::Laboratory {
@@ -37,6 +40,7 @@ class ThreadedLaboratory final : public papers::Laboratory {
  private:
   Json designs_of(const Scenario& scenario) const;
   void advance(std::int64_t runs);
+  void check_stop() const;
 
   const LaboratoryOptions options_;
   std::map<std::string, std::shared_ptr<const papers::Study>> studies_;

@@ -63,6 +63,8 @@ class EveryRoute : public SystemTest {
     campaign_ = client_->post("/api/v1/campaigns", {{"scenario", "consensus"}, {"runs", 2}}).json.at("id");
     ASSERT_TRUE(
         eventually([&] { return client_->get("/api/v1/campaigns/" + campaign_).json.at("state") == "finished"; }));
+    client_->post("/api/v1/papers", {{"only", {"000/fig1"}}, {"runs", 2}});
+    ASSERT_TRUE(eventually([&] { return client_->get("/api/v1/papers").json.at("job").at("state") == "finished"; }));
     design_ = client_->post("/api/v1/designs", {{"scenario", "observer-single"}}).json.at("items").at(0).at("key");
   }
 
@@ -80,6 +82,8 @@ class EveryRoute : public SystemTest {
     put("{key}", design_);
     put("{cell}", "0");
     put("{index}", "1");
+    put("{source}", "000");
+    put("{figure}", "fig1");
     if (path.ends_with("/compare")) path += "?ids=" + run_ + "," + fed_;
     return path;
   }
@@ -90,6 +94,7 @@ class EveryRoute : public SystemTest {
     if (path.ends_with("/import")) return bundle_;
     if (path.ends_with("/fork")) return R"({"k":2})";
     if (path.ends_with("/attacks")) return R"({"type":"dos","on":["link:1-2"]})";
+    if (path.ends_with("/papers")) return R"({"only":["000/fig1"],"runs":2})";
     if (path.ends_with("/campaigns")) return R"({"scenario":"consensus","runs":2})";
     if (path.ends_with("/runs") || path.ends_with("/designs") || path.ends_with("/systems/check") ||
         path.ends_with("/compatibility"))
