@@ -1,0 +1,34 @@
+/// Texts that more than one part of the page shows.
+import type { Claim } from '../../api/papers';
+import { formatNumber, missing } from '../../i18n/format.svelte';
+import { t } from './words';
+
+const sources = ['000', '001', '002', '003', '004'] as const;
+
+export function sourceTitle(source: string): string {
+  const known = sources.find((one) => one === source);
+  return known ? t(`source_${known}`) : t('source_other', { source });
+}
+
+/** A number as printed, or what the paper says. */
+export function paperText(paper: number | string | null): string {
+  if (paper === null) return missing;
+  return typeof paper === 'string' ? paper : String(Number(paper.toPrecision(6)));
+}
+
+/** Bounds from 1e9 on are those of "at least". */
+const unbounded = 1e9;
+
+export function bandText({ low, high }: Pick<Claim, 'low' | 'high'>): string {
+  const above = high === null || high >= unbounded;
+  const below = low === null || low <= -unbounded;
+  if (above && below) return t('any');
+  if (above) return t('at_least', { low: formatNumber(low, 4) });
+  if (below) return t('at_most', { high: formatNumber(high, 4) });
+  return t('between', { low: formatNumber(low, 4), high: formatNumber(high, 4) });
+}
+
+/** What goes to a shell to get the same item. */
+export function commandOf(key: string, runs: number, seed: number): string {
+  return `vigil papers --only ${key} --runs ${runs} --seed ${seed}`;
+}
