@@ -14,6 +14,10 @@ export function readKind(text: string | null): Kind | null {
   return kinds.find((kind) => kind === text) ?? null;
 }
 
+/** With fewer runs a mean scatters so much that a verdict may differ. One run is of what has nothing random in it. */
+export const leastRuns = 30;
+export const isFew = (runs: number | null): boolean => runs !== null && runs > 1 && runs < leastRuns;
+
 export const sourceOf = (key: string): string => key.split('/')[0]!;
 
 export interface Source {

@@ -1,8 +1,8 @@
 import { describe, expect, test } from 'vitest';
 import type { FigurePanel, PaperItem, PanelSeries, Verdict } from '../../api/papers';
-import { bySource, countOf, kindOf, neighbours, readKind } from './items';
+import { bySource, countOf, isFew, kindOf, neighbours, readKind } from './items';
 import { frameOf, pathOf, placesOf, rowsOf, signOf, size, stemsOf } from './plot';
-import { bandText, commandOf, paperText } from './text';
+import { bandText, commandOf, paperText, pieces } from './text';
 
 function item(key: string, verdict: Verdict | null): PaperItem {
   return { key, title: { en: key, zh: key }, spec: '', scenario: '', rule: '', reason: '', paper: null, ours: null, se: null, verdict, runs: null, seed: null, version: null, ended: null };
@@ -24,6 +24,7 @@ describe('items', () => {
     expect(items.map(kindOf)).toEqual(['reproduced', 'none', 'not', 'corrected']);
     expect(readKind('not')).toBe('not');
     expect(readKind('toString')).toBeNull();
+    expect([null, 1, 2, 29, 30].map(isFew)).toEqual([false, false, true, true, false]);
   });
 
   test('know what stands before and after', () => {
@@ -77,7 +78,9 @@ describe('a panel', () => {
   test('tells its series apart without colour', () => {
     const signs = Array.from({ length: 9 }, (_, i) => signOf(series('line', [], []), i));
     expect(new Set(signs.map((sign) => `${sign.token} ${sign.dash}`)).size).toBe(9);
-    expect(new Set(signs.map((sign) => sign.dash)).size).toBeGreaterThanOrEqual(7);
+    expect(new Set(signs.slice(0, 8).map((sign) => sign.dash)).size).toBe(8);
+    expect(signOf(series('dashed', [], []), 0).dash).not.toBe('');
+    expect(signOf({ ...series('line', [], []), name: 'truth' }, 3)).toMatchObject({ token: 'ink', dash: '' });
     expect(signOf(series('edge', [], []), 0).token).toBe('control');
   });
 
@@ -87,6 +90,11 @@ describe('a panel', () => {
 });
 
 describe('texts', () => {
+  test('with names in them', () => {
+    expect(pieces('the guard `clip` is one, `a` too')).toEqual(['the guard ', 'clip', ' is one, ', 'a', ' too']);
+    expect(pieces('an odd ` sign')).toEqual(['an odd ` sign']);
+  });
+
   test('of bands and numbers', () => {
     expect(bandText({ low: 1, high: 2 })).toBe('1.000 to 2.000');
     expect(bandText({ low: 1.5, high: 1e12 })).toBe('≥ 1.500');

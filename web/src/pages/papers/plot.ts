@@ -1,6 +1,6 @@
 /// A panel of a figure as shapes of an SVG: scales that hold its series, paths broken at what has no place.
 import type { FigurePanel, PanelAxis, PanelSeries } from '../../api/papers';
-import { laneColours, laneDash, laneToken } from '../../chart/colours';
+import { laneDash, laneToken } from '../../chart/colours';
 import { fit, fraction, type Scale } from '../../chart/scale';
 
 export const size = { width: 480, height: 300, left: 58, right: 12, top: 10, bottom: 42 };
@@ -77,11 +77,21 @@ export function stemsOf(series: PanelSeries, frame: Frame): string {
     .join('');
 }
 
-/** Colour token, dash and the shape of the points: no two of a panel's first 64 series are alike in all of them. */
-export function signOf(series: PanelSeries, index: number): { token: string; dash: string; round: boolean } {
-  if (series.style === 'edge') return { token: 'control', dash: '', round: true };
-  const dash = series.style === 'dashed' ? [5, 3] : series.style === 'line' && index >= 2 ? laneDash(index) : [];
-  return { token: laneToken(index), dash: dash.join(' '), round: index % 2 === 0 && index < 2 * laneColours };
+export interface Sign {
+  token: string;
+  dash: string;
+  width: number;
+  round: boolean;
+}
+
+/** Colour token, dash, width and the shape of the points; the truth is in ink as on every page. */
+export function signOf(series: PanelSeries, index: number): Sign {
+  const round = index % 2 === 0;
+  if (series.style === 'edge') return { token: 'control', dash: '', width: 1.5, round };
+  if (series.name === 'truth' && series.style === 'line') return { token: 'ink', dash: '', width: 2.2, round };
+  const own = laneDash(index);
+  const dash = series.style === 'dashed' && own.length === 0 ? [5, 3] : own;
+  return { token: laneToken(index), dash: dash.join(' '), width: 1.5, round };
 }
 
 /** A row a point: series, x, y. */

@@ -28,6 +28,12 @@ export function bandText({ low, high }: Pick<Claim, 'low' | 'high'>): string {
   return t('between', { low: formatNumber(low, 4), high: formatNumber(high, 4) });
 }
 
+/** Words and, between backticks, names in turn; an odd backtick is one of the words. */
+export function pieces(text: string): string[] {
+  const parts = text.split('`');
+  return parts.length % 2 === 1 ? parts : [text];
+}
+
 /** What goes to a shell to get the same item. */
 export function commandOf(key: string, runs: number, seed: number): string {
   return `vigil papers --only ${key} --runs ${runs} --seed ${seed}`;
