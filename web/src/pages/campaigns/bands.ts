@@ -30,8 +30,8 @@ interface Line {
   items: (Statistics | undefined)[];
 }
 
-function linesOf({ results, metric, lanes, cells, axis }: BandsQuestion): Line[] {
-  const apart = axis === null ? 26 : 3;
+function linesOf({ results, metric, lanes, cells, axis }: BandsQuestion, width: number): Line[] {
+  const apart = axis === null ? Math.min(80, (width - 90) / Math.max(1, lanes.length)) : 3;
   return lanes.map((lane, i) => ({
     lane,
     shift: (i - (lanes.length - 1) / 2) * apart,
@@ -90,7 +90,7 @@ function lineMarks(line: Line, xs: number[], y: (value: number) => number, joine
 function frame(box: Box, axis: SweptAxis | null, lines: Line[], lanes: readonly string[]): { xs: number[]; marks: Mark[] } {
   if (axis === null) {
     const x = (box.left + box.right) / 2;
-    const marks = lines.map((line): Mark => ({ type: 'text', x: x + line.shift, y: box.bottom + 8, text: cut(lanes[line.lane]!, 60), fill: colour('muted'), align: 'end', turned: true }));
+    const marks = lines.map((line): Mark => ({ type: 'text', x: x + line.shift, y: box.bottom + 8, text: cut(lanes[line.lane]!, 82), fill: colour('muted'), align: 'end', turned: true }));
     return { xs: [x], marks };
   }
   const range = rangeOf(axis.at) ?? { lo: 0, hi: 1 };
@@ -103,9 +103,9 @@ function frame(box: Box, axis: SweptAxis | null, lines: Line[], lanes: readonly 
 }
 
 export function bandsScene(question: BandsQuestion, width: number, height: number): Scene {
-  const lines = linesOf(question);
+  const lines = linesOf(question, width);
   const scale = scaleOf(lines, question.band, question.log);
-  const box = boxOf(width, height, { left: 66, bottom: question.axis === null ? 76 : 38 });
+  const box = boxOf(width, height, { left: 66, bottom: question.axis === null ? 92 : 38 });
   const y = (value: number): number => place.y(box, scale, value);
   const below = frame(box, question.axis, lines, question.results.lanes);
   const joined = question.axis !== null;

@@ -13,7 +13,7 @@ export type Mark =
   /** Many lines of equally many points, all with the same stroke. */
   | ({ type: 'lines'; points: Float32Array; each: number } & Stroke)
   | { type: 'area'; points: readonly number[]; fill: string; alpha?: number }
-  | { type: 'rect'; x: number; y: number; width: number; height: number; fill: string; alpha?: number; outline?: string }
+  | { type: 'rect'; x: number; y: number; width: number; height: number; fill?: string; alpha?: number; outline?: string }
   | { type: 'dot'; x: number; y: number; radius: number; fill?: string; outline?: string; alpha?: number }
   | { type: 'text'; x: number; y: number; text: string; fill: string; align?: 'start' | 'middle' | 'end'; turned?: boolean };
 

@@ -72,7 +72,7 @@ export function surfaceScene(question: SurfaceQuestion, chosen: number, width: n
     if (share !== null) marks.push({ type: 'rect', x: left, y: top, width: wide + 0.5, height: tall + 0.5, fill, alpha: strength(share) });
     else marks.push({ type: 'line', points: [left, top + tall, left + wide, top], colour: colour('control') });
     if (wide > 44 && tall > 14) marks.push({ type: 'text', x: left + wide / 2, y: top + tall / 2, text: formatNumber(mean), fill: colour('ink'), align: 'middle' });
-    if (cell === chosen) marks.push({ type: 'rect', x: left + 1, y: top + 1, width: wide - 2, height: tall - 2, fill: 'none', outline: colour('ink') });
+    if (cell === chosen) marks.push({ type: 'rect', x: left + 1, y: top + 1, width: wide - 2, height: tall - 2, outline: colour('ink') });
   }
   // What is chosen is drawn above its neighbours.
   marks.sort((a, b) => Number(a.type === 'rect' && a.outline !== undefined) - Number(b.type === 'rect' && b.outline !== undefined));
