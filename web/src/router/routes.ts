@@ -8,7 +8,7 @@ type Page = Component<PageProps>;
 export interface Route {
   pattern: string;
   /** Entry of the left rail that is lit. */
-  section: 'overview' | 'live' | 'runs' | 'scenarios' | 'about';
+  section: 'overview' | 'live' | 'runs' | 'scenarios' | 'papers' | 'about';
   load: () => Promise<{ default: Page }>;
 }
 
@@ -22,6 +22,7 @@ export const routes: Route[] = [
   { pattern: '/scenarios', section: 'scenarios', load: () => import('../pages/scenarios/ScenariosPage.svelte') },
   { pattern: '/scenarios/:id', section: 'scenarios', load: () => import('../pages/scenarios/ScenarioPage.svelte') },
   { pattern: '/system', section: 'scenarios', load: () => import('../pages/system/SystemPage.svelte') },
+  { pattern: '/papers', section: 'papers', load: () => import('../pages/papers/PapersPage.svelte') },
   { pattern: '/about', section: 'about', load: () => import('../pages/about/AboutPage.svelte') },
 ];
 

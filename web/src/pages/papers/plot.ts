@@ -77,6 +77,9 @@ export function stemsOf(series: PanelSeries, frame: Frame): string {
     .join('');
 }
 
+/** What the engine calls it. */
+const truths: readonly string[] = ['truth', 'true'];
+
 export interface Sign {
   token: string;
   dash: string;
@@ -88,7 +91,7 @@ export interface Sign {
 export function signOf(series: PanelSeries, index: number): Sign {
   const round = index % 2 === 0;
   if (series.style === 'edge') return { token: 'control', dash: '', width: 1.5, round };
-  if (series.name === 'truth' && series.style === 'line') return { token: 'ink', dash: '', width: 2.2, round };
+  if (truths.includes(series.name) && series.style === 'line') return { token: 'ink', dash: '', width: 2.2, round };
   const own = laneDash(index);
   const dash = series.style === 'dashed' && own.length === 0 ? [5, 3] : own;
   return { token: laneToken(index), dash: dash.join(' '), width: 1.5, round };
