@@ -8,7 +8,7 @@ type Page = Component<PageProps>;
 export interface Route {
   pattern: string;
   /** Entry of the left rail that is lit. */
-  section: 'overview' | 'live' | 'runs' | 'scenarios' | 'papers' | 'about';
+  section: 'overview' | 'live' | 'runs' | 'campaigns' | 'scenarios' | 'papers' | 'about';
   load: () => Promise<{ default: Page }>;
 }
 
@@ -19,6 +19,8 @@ export const routes: Route[] = [
   { pattern: '/runs', section: 'runs', load: () => import('../pages/runs/RunsPage.svelte') },
   { pattern: '/runs/:id', section: 'runs', load: () => import('../pages/live/LivePage.svelte') },
   { pattern: '/compare', section: 'runs', load: () => import('../pages/compare/ComparePage.svelte') },
+  { pattern: '/campaigns', section: 'campaigns', load: () => import('../pages/campaigns/CampaignsPage.svelte') },
+  { pattern: '/campaigns/:id', section: 'campaigns', load: () => import('../pages/campaigns/CampaignPage.svelte') },
   { pattern: '/scenarios', section: 'scenarios', load: () => import('../pages/scenarios/ScenariosPage.svelte') },
   { pattern: '/scenarios/:id', section: 'scenarios', load: () => import('../pages/scenarios/ScenarioPage.svelte') },
   { pattern: '/system', section: 'scenarios', load: () => import('../pages/system/SystemPage.svelte') },

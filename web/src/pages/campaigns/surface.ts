@@ -38,7 +38,7 @@ const boxFor = (width: number, height: number): Box => boxOf(width, height, { le
 function legend(box: Box, range: { lo: number; hi: number }, fill: string): Mark[] {
   const steps = 16;
   const tall = (box.bottom - box.top) / steps;
-  const bar = Array.from({ length: steps }, (_, i): Mark => ({ type: 'rect', x: box.right + 8, y: box.bottom - (i + 1) * tall, width: 10, height: tall + 0.5, fill, alpha: strength(i / (steps - 1)) }));
+  const bar = Array.from({ length: steps }, (_, i): Mark => ({ type: 'rect', x: box.right + 8, y: box.bottom - (i + 1) * tall, width: 10, height: tall, fill, alpha: strength(i / (steps - 1)) }));
   return [
     ...bar,
     { type: 'text', x: box.right + 22, y: box.top + 6, text: formatNumber(range.hi), fill: colour('ink') },
@@ -66,11 +66,12 @@ export function surfaceScene(question: SurfaceQuestion, chosen: number, width: n
   const fill = colour(laneToken(lane));
   const marks: Mark[] = [];
   for (const { i, j, cell, mean } of cells) {
-    const left = box.left + i * wide;
-    const top = box.bottom - (j + 1) * tall;
+    // Whole px, so that no seam shows where two of them meet.
+    const [left, right] = [Math.round(box.left + i * wide), Math.round(box.left + (i + 1) * wide)];
+    const [top, bottom] = [Math.round(box.bottom - (j + 1) * tall), Math.round(box.bottom - j * tall)];
     const share = mean === null || !range ? null : range.hi > range.lo ? (mean - range.lo) / (range.hi - range.lo) : 0.5;
-    if (share !== null) marks.push({ type: 'rect', x: left, y: top, width: wide + 0.5, height: tall + 0.5, fill, alpha: strength(share) });
-    else marks.push({ type: 'line', points: [left, top + tall, left + wide, top], colour: colour('control') });
+    if (share !== null) marks.push({ type: 'rect', x: left, y: top, width: right - left, height: bottom - top, fill, alpha: strength(share) });
+    else marks.push({ type: 'line', points: [left, bottom, right, top], colour: colour('control') });
     if (wide > 44 && tall > 14) marks.push({ type: 'text', x: left + wide / 2, y: top + tall / 2, text: formatNumber(mean), fill: colour('ink'), align: 'middle' });
     if (cell === chosen) marks.push({ type: 'rect', x: left + 1, y: top + 1, width: wide - 2, height: tall - 2, outline: colour('ink') });
   }
