@@ -1,4 +1,4 @@
-import { base } from '../../api/client';
+import { watchFeed } from '../../api/feed';
 import type { RunState } from '../../api/types';
 
 /** What the feed says of a run, about once a second and whenever its state changes. */
@@ -10,52 +10,4 @@ export interface RunNote {
   ticks_per_second?: number | null;
 }
 
-/**
- * Listens to the server's global feed and tells what happened to which run. `connected` is told when the feed is lost and
- * found again. A tab that nobody looks at gives its connection up: a browser has six for all of them. Returns what stops it.
- */
-export function watchRuns(happened: (note: RunNote) => void, connected: (is: boolean) => void): () => void {
-  let source: EventSource | undefined;
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  let wait = 1000;
-  let stopped = false;
-
-  const heard = (event: MessageEvent<string>): void => {
-    try {
-      const note = JSON.parse(event.data) as RunNote;
-      if (typeof note.id === 'string') happened(note);
-    } catch {
-      return;
-    }
-  };
-  const open = (): void => {
-    source = new EventSource(`${base}/stream`);
-    source.addEventListener('open', () => {
-      wait = 1000;
-      connected(true);
-    });
-    source.addEventListener('run', heard as (event: Event) => void);
-    source.addEventListener('error', () => {
-      connected(false);
-      if (source?.readyState !== EventSource.CLOSED || stopped) return;
-      timer = setTimeout(open, wait);
-      wait = Math.min(30_000, wait * 2);
-    });
-  };
-  const close = (): void => {
-    clearTimeout(timer);
-    source?.close();
-    source = undefined;
-  };
-  const visibility = (): void => {
-    if (document.hidden) close();
-    else if (!source) open();
-  };
-  document.addEventListener('visibilitychange', visibility);
-  visibility();
-  return () => {
-    stopped = true;
-    document.removeEventListener('visibilitychange', visibility);
-    close();
-  };
-}
+export const watchRuns = (happened: (note: RunNote) => void, connected: (is: boolean) => void): (() => void) => watchFeed('run', happened, connected);
