@@ -43,6 +43,12 @@ TrialResult take_trial(Run& run);
 TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace = nullptr,
                       const Json& designs = Json::object());
 
+/// A finished trial as bytes, every bit kept, so that it can be made elsewhere: a table to which load_trial() of it is
+/// added is the table to which the trial was added.
+std::string save_trial(const TrialResult& trial);
+/// Throws std::runtime_error where the bytes are cut off, damaged or of another format.
+TrialResult load_trial(std::string_view bytes);
+
 struct MetricSummary {
   MetricValue key;  ///< lane, node, name, variant; value unused
   double mean = 0;  ///< pooled root of the mean square for rmse_… and rms_…

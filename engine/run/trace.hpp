@@ -27,6 +27,11 @@ class Trace {
   /// The row of tick rows(), one cell a column, NaN where missing. Of a growing trace only; throws std::logic_error.
   void append(std::span<const double> cells);
 
+  /// Every bit of a trace that does not grow, and back. load() throws std::runtime_error where the bytes are damaged,
+  /// save() std::logic_error where the trace grows.
+  std::string save() const;
+  static Trace load(std::string_view bytes);
+
   std::int64_t first_tick() const { return first_tick_; }
   std::int64_t rows() const { return rows_; }
   double dt() const { return dt_; }                                     ///< of the first two rows, s; 0 with one row
