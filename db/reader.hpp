@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "db/cell_summary.hpp"
 #include "db/query.hpp"
 #include "db/records.hpp"
 
@@ -61,6 +62,11 @@ struct LogCounts {
   std::int64_t bytes = 0;   ///< file and write-ahead log
 };
 
+struct SummaryRow {
+  std::int64_t cell = 0;
+  CellSummary summary;
+};
+
 class LogReader {
  public:
   /// Throws LogError (unusable) where the file is not a log of this version; the writer must have made it.
@@ -105,6 +111,15 @@ class LogReader {
   std::vector<CampaignCellRow> campaign_cells(std::int64_t campaign) const;
   /// Whole.
   std::optional<CampaignCellRow> campaign_cell(std::int64_t campaign, std::int64_t cell) const;
+  /// A cell together with its trials of `range`, as one commit left them.
+  std::optional<CampaignPart> campaign_part(std::int64_t campaign, std::int64_t cell, TrialRange range) const;
+  /// Of the cells that are whole, from `first` on, in order.
+  std::vector<SummaryRow> campaign_summaries(std::int64_t campaign, std::int64_t first = 0) const;
+  /// Columns of the cells that have a trial, from `first` to `last`, in order: only `cell` and `columns`.
+  std::vector<CampaignCellRow> campaign_columns(std::int64_t campaign, std::int64_t first, std::int64_t last) const;
+  /// The numbers of trials in order of their index; the bytes are valid during the call.
+  void each_trial(std::int64_t campaign, TrialRange range,
+                  const std::function<void(std::int64_t index, std::string_view numbers)>& call) const;
   std::optional<DesignRow> design(const std::string& key) const;
   std::optional<std::string> design_problem(const std::string& key) const;  ///< the text that was stored with it
   Json setting(const std::string& key) const;                               ///< null: not set

@@ -199,6 +199,11 @@ struct CampaignCellRow {
   Json result;               ///< null until all its trials are there
 };
 
+struct CampaignPart {
+  CampaignCellRow cell;
+  std::vector<TrialRow> trials;
+};
+
 /// What one transaction adds to a campaign.
 struct CampaignBatch {
   std::vector<TrialRow> trials;

@@ -104,7 +104,14 @@ UPDATE campaign SET state='cancelled',error='It was begun by an older Vigil and 
   WHERE state IN('queued','running','paused','interrupted');
 )sql";
 
-const char* const kMigrations[kSchemaVersion] = {kVersion1, kVersion2, kVersion3};
+// The metrics of cells that are whole, beside everything else that is said of them: a page reads those of all cells.
+const char* const kVersion4 = R"sql(
+CREATE TABLE campaign_summary(
+  campaign INTEGER NOT NULL REFERENCES campaign(id) ON DELETE CASCADE, cell INTEGER NOT NULL, summary BLOB NOT NULL,
+  PRIMARY KEY(campaign,cell)) WITHOUT ROWID;
+)sql";
+
+const char* const kMigrations[kSchemaVersion] = {kVersion1, kVersion2, kVersion3, kVersion4};
 
 [[noreturn]] void unusable(const std::string& sentence) { throw LogError(LogError::Kind::unusable, sentence); }
 

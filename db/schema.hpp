@@ -8,7 +8,7 @@
 
 namespace vigil {
 
-inline constexpr int kSchemaVersion = 3;
+inline constexpr int kSchemaVersion = 4;
 inline constexpr int kBlockRows = 512;  ///< rows in a sealed block
 inline constexpr int kTimeSignal = -1;  ///< stands for t in table chunk, where t is not k * dt or rows are missing
 

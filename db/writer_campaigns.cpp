@@ -1,6 +1,7 @@
 /// LogWriter's calls on campaigns.
 #include <bit>
 
+#include "db/cell_summary.hpp"
 #include "db/chunk.hpp"
 #include "db/writer_state.hpp"
 
@@ -63,6 +64,12 @@ void update_cell(Database& database, std::int64_t campaign, const CampaignCellRo
     update.blob(6, result);
   }
   update.run();
+  if (row.result.is_null()) return;
+  const std::string summary = encode(cell_summary(row.result));
+  database.cached("INSERT OR REPLACE INTO campaign_summary(campaign,cell,summary) VALUES(?,?,?)")
+      .all(campaign, row.cell)
+      .blob(3, summary)
+      .run();
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ TEST(File, AnOlderSchemaIsBroughtUpToDateWithItsRuns) {
   }
   raw_sql(path,
           "DROP TABLE design; ALTER TABLE document DROP COLUMN designs; DROP TABLE campaign_cell; "
+          "DROP TABLE campaign_summary; "
           "DROP INDEX campaign_by_key; DROP INDEX campaign_trial_lost; ALTER TABLE campaign DROP COLUMN key; ALTER "
           "TABLE campaign DROP COLUMN hash; "
           "ALTER TABLE campaign_trial DROP COLUMN numbers; ALTER TABLE campaign_trial DROP COLUMN ticks; "

@@ -1,4 +1,4 @@
-/// Runs, commands, marks, scenarios, traces, campaigns: in and out again; idempotency keys.
+/// Runs, commands, marks, scenarios, traces: in and out again; idempotency keys.
 #include "tests/db/helpers.hpp"
 
 namespace vigil {
@@ -185,76 +185,6 @@ TEST_F(Rows, ScenariosTracesSettings) {
   EXPECT_TRUE(reader.setting("a").is_null());
   writer.set_setting("a", Json{{"b", NAN}});
   EXPECT_TRUE(reader.setting("a")["b"].is_null());
-}
-
-NewCampaign two_cells() {
-  NewCampaign campaign;
-  campaign.request = {{"runs", 2}, {"note", "old"}};
-  campaign.trials = 4;
-  campaign.cells.resize(2);
-  campaign.cells[1].cell = 1;
-  campaign.cells[1].sweep = {{"a.b", 0.5}};
-  return campaign;
-}
-
-TEST_F(Rows, CampaignsKeepTheirTrialsAndWhatIsMergedOfThem) {
-  const auto id = writer.create_campaign(two_cells()).id;
-  EXPECT_EQ("queued", reader.campaign(id)->state);
-  const std::string numbers("\x00\x01\xff\x00\x00\x00\x00\x00", 8);
-  CampaignBatch batch;
-  batch.trials.resize(2);
-  batch.trials[0] = {0, ~0ull, "finished", numbers, 30, {}, {}, "", 7, {}};
-  batch.trials[1] = {1, 100, "failed", "", 0, Json{{"lane", "x"}}, Json{"look"}, "why", {}, {}};
-  batch.cells.push_back({0, {}, {}, Json{{"gain", 1}}, Json{"column"}, std::string(3, '\0'), {}});
-  writer.add_trials(id, batch).get();
-  writer.add_trials(id, batch).get();  // again: nothing counts twice
-  auto row = *reader.campaign(id);
-  EXPECT_EQ(2, row.done);
-  EXPECT_EQ(1, row.failed);
-  const auto trials = reader.trials(id);
-  ASSERT_EQ(2u, trials.size());
-  EXPECT_EQ(~0ull, trials[0].seed);
-  EXPECT_EQ(numbers, trials[0].numbers);
-  EXPECT_EQ(7, trials[0].run);
-  EXPECT_EQ("why", trials[1].error);
-  EXPECT_EQ(Json{"look"}, trials[1].warnings);
-  EXPECT_EQ(1u, reader.trials(id, {1, 1}).size());
-  EXPECT_EQ(std::string(3, '\0'), reader.campaign_cell(id, 0)->accumulators);
-  EXPECT_TRUE(reader.campaign_cell(id, 0)->result.is_null());
-  batch.trials.clear();
-  batch.cells[0].accumulators.clear();
-  batch.cells[0].result = {{"metrics", Json::array()}};
-  writer.add_trials(id, batch).get();
-  EXPECT_TRUE(reader.campaign_cell(id, 0)->result.contains("metrics"));
-  writer.set_cell_designs(id, 1, {{"lane", 1}});
-  EXPECT_EQ(0.5, reader.campaign_cells(id).at(1).sweep["a.b"]);
-  EXPECT_EQ(1, reader.campaign_cells(id).at(1).designs["lane"]);
-  writer.describe_campaign(id, {{"note", "new"}});
-  EXPECT_EQ("new", reader.campaign(id)->request["note"]);
-  writer.update_campaign(id, "paused");
-  EXPECT_FALSE(reader.campaign(id)->ended);
-  writer.update_campaign(id, "finished");
-  EXPECT_TRUE(reader.campaign(id)->ended);
-  EXPECT_TRUE(check_log(path()).ok);
-  EXPECT_TRUE(writer.delete_campaign(id));
-  EXPECT_TRUE(reader.campaigns().empty());
-  EXPECT_TRUE(reader.trials(id).empty());
-  EXPECT_FALSE(reader.campaign_cell(id, 0));
-  EXPECT_THROW(writer.add_trials(id, batch).get(), LogError);
-}
-
-TEST_F(Rows, ACampaignsKeyMakesItOnce) {
-  NewCampaign campaign = two_cells();
-  campaign.idempotency_key = "k";
-  campaign.idempotency_hash = "one";
-  const auto first = writer.create_campaign(campaign), second = writer.create_campaign(campaign);
-  EXPECT_TRUE(first.fresh);
-  EXPECT_FALSE(second.fresh);
-  EXPECT_EQ(first.id, second.id);
-  campaign.idempotency_hash = "two";
-  EXPECT_THROW(writer.create_campaign(campaign), LogError);
-  clock += 25LL * 3600 * kSecond;
-  EXPECT_TRUE(writer.create_campaign(campaign).fresh);
 }
 
 TEST_F(Rows, ADeletedRunIsGoneAtOnceAndItsSamplesSoon) {
