@@ -1,5 +1,9 @@
 #include "server/api/campaign_json.hpp"
 
+#include <algorithm>
+#include <map>
+#include <set>
+
 #include "server/campaigns/manager.hpp"
 #include "server/campaigns/work.hpp"
 
@@ -37,14 +41,25 @@ Json campaign_item(const CampaignRow& row, const Services& services) {
   return item;
 }
 
-std::vector<CellResult> campaign_cells(const CampaignRow& row, const Services& services) {
-  const std::int64_t runs = row.request.value("runs", std::int64_t{1});
-  std::vector<CellResult> cells;
-  for (CampaignCellRow& cell : services.reader.campaign_cells(row.id)) {
-    const bool begun = cell.cell * runs < row.done;
-    cells.push_back(
-        {cell.cell, std::move(cell.sweep), begun ? cell_result(services.reader, row.id, cell.cell, runs) : Json()});
+std::string metric_id(const std::string& node, const std::string& name, const std::string& variant) {
+  const std::string text = node.empty() ? name : node + "." + name;
+  return variant.empty() ? text : text + ":" + variant;
+}
+
+std::vector<std::string> comma_words(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    if (comma > from) words.push_back(text.substr(from, comma - from));
+    from = comma + 1;
   }
+  return words;
+}
+
+std::vector<CellResult> campaign_cells(const CampaignRow& row, CampaignResults& results, const Services& services) {
+  std::vector<CellResult> cells;
+  for (CampaignCellRow& cell : services.reader.campaign_cells(row.id))
+    cells.push_back({cell.cell, std::move(cell.sweep), results.result(row, cell.cell)});
   return cells;
 }
 
@@ -72,6 +87,63 @@ Json campaign_detail(const CampaignRow& row, const std::vector<CellResult>& cell
   detail["faults"] = rows_of(cells, "faults");
   detail["warnings"] = warnings_of(cells);
   return detail;
+}
+
+namespace {
+
+/// {"lanes":[…],"metrics":[{"id","node","lanes":[places]}]}, in the order in which they first came.
+Json names_of(const std::vector<SummaryRow>& rows) {
+  std::map<std::string, std::size_t> lanes, metrics;
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  Json names{{"lanes", Json::array()}, {"metrics", Json::array()}};
+  for (const SummaryRow& cell : rows) {
+    for (const CellSummary::Row& row : cell.summary.rows) {
+      const std::string id = metric_id(row.node, row.name, row.variant);
+      const auto [lane, new_lane] = lanes.try_emplace(row.lane, lanes.size());
+      if (new_lane) names["lanes"].push_back(row.lane);
+      const auto [metric, new_metric] = metrics.try_emplace(id, metrics.size());
+      if (new_metric) {
+        const Json node = row.node.empty() ? Json() : Json(row.node);
+        names["metrics"].push_back({{"id", id}, {"node", node}, {"lanes", Json::array()}});
+      }
+      if (seen.emplace(metric->second, lane->second).second)
+        names["metrics"][metric->second]["lanes"].push_back(lane->second);
+    }
+  }
+  return names;
+}
+
+void add_warnings(Json& all, const Json& warnings) {
+  for (const Json& warning : warnings) {
+    if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
+  }
+}
+
+}  // namespace
+
+Json campaign_outline(const CampaignRow& row, CampaignResults& results, const Services& services) {
+  Json outline = campaign_item(row, services);
+  outline["document"] = row.request.value("scenario", Json());
+  const std::int64_t runs = outline.at("runs");
+  const std::vector<SummaryRow> summaries = results.summaries(row);
+  Json sum{{"finished", 0}, {"stopped", 0}, {"failed", 0}}, warnings = Json::array(), cells = Json::array();
+  for (const CampaignCellRow& cell : services.reader.campaign_cells(row.id)) {
+    const std::int64_t done = std::clamp<std::int64_t>(row.done - cell.cell * runs, 0, runs);
+    cells.push_back({{"cell", cell.cell}, {"sweep", cell.sweep}, {"done", done}});
+    const auto place = static_cast<std::size_t>(cell.cell);
+    if (place >= summaries.size()) continue;
+    const CellSummary& summary = summaries[place].summary;
+    cells.back()["trials"] = summary.trials;
+    cells.back()["ticks"] = summary.ticks;
+    for (auto& [state, count] : sum.items())
+      count = count.get<std::int64_t>() + summary.trials.value(state, std::int64_t{0});
+    add_warnings(warnings, summary.warnings);
+  }
+  outline["trials"] = std::move(sum);
+  outline["cells"] = std::move(cells);
+  outline["names"] = names_of(summaries);
+  outline["warnings"] = std::move(warnings);
+  return outline;
 }
 
 }  // namespace vigil

@@ -7,7 +7,6 @@
 #include "server/api/guard.hpp"
 #include "server/api/read_body.hpp"
 #include "server/campaigns/manager.hpp"
-#include "server/campaigns/work.hpp"
 
 namespace vigil {
 namespace {
@@ -87,20 +86,28 @@ void list(const Services& services, const HttpRequest& request, HttpResponse& re
   response.json(answer);
 }
 
-void show(const Services& services, const HttpRequest& request, HttpResponse& response) {
+bool read_flag(const HttpRequest& request, const char* name) {
+  const std::string text = request.query_value(name, "true");
+  if (text != "true" && text != "false")
+    throw HttpError(400, std::string(name) + " is " + in_quotes(text) + "; expected true or false.");
+  return text == "true";
+}
+
+void show(const Services& services, CampaignResults& results, const HttpRequest& request, HttpResponse& response) {
   const CampaignRow row = campaign_row(request, services);
-  const auto cells = campaign_cells(row, services);
+  if (!read_flag(request, "results")) return response.json(campaign_outline(row, results, services));
+  const auto cells = campaign_cells(row, results, services);
   if (request.accepts("text/csv")) return response.text(results_csv(cells), "text/csv; charset=utf-8");
   response.json(campaign_detail(row, cells, services));
 }
 
-void cell(const Services& services, const HttpRequest& request, HttpResponse& response) {
+void cell(const Services& services, CampaignResults& results, const HttpRequest& request, HttpResponse& response) {
   const CampaignRow row = campaign_row(request, services);
   const std::int64_t place = request.id_param("cell");
   const auto found = services.reader.campaign_cell(row.id, place);
   if (!found) throw HttpError(404, "The campaign has no cell " + request.params.at("cell") + ".");
   Json answer{{"cell", place}, {"sweep", found->sweep}};
-  answer["result"] = cell_result(services.reader, row.id, place, row.request.value("runs", std::int64_t{1}));
+  answer["result"] = results.result(row, place);
   response.json(answer);
 }
 
@@ -159,17 +166,20 @@ Json change_doc() {
 }
 
 /// Routes of one campaign.
-void add_single_routes(Routes& routes, Services& services) {
+void add_single_routes(Routes& routes, Services& services, const SharedResults& results) {
   const auto one = [] { return doc::Operation().problem(404, "There is no such campaign."); };
   routes.add(make_route(
-      "GET", "/api/v1/campaigns/{id}", [&services](const auto& q, auto& r) { show(services, q, r); },
+      "GET", "/api/v1/campaigns/{id}", [&services, results](const auto& q, auto& r) { show(services, *results, q, r); },
       "A campaign: request, state, progress, cells, results; as CSV the results",
       one()
+          .parameter(doc::query("results", {{"type", "boolean"}},
+                                "false: which metrics there are instead of their figures, and no faults"))
           .answer(200, "The campaign.", kCampaign)
           .answer(200, "The campaign.", doc::text_schema(), "text/csv")
           .what()));
   routes.add(make_route(
-      "GET", "/api/v1/campaigns/{id}/cells/{cell}", [&services](const auto& q, auto& r) { cell(services, q, r); },
+      "GET", "/api/v1/campaigns/{id}/cells/{cell}",
+      [&services, results](const auto& q, auto& r) { cell(services, *results, q, r); },
       "A point of the grid with everything that is said of it: metrics, paired differences, detection curves",
       one().answer(200, "The cell; `result` is null before its first trial.", kCampaign).what()));
   routes.add(make_route(
@@ -198,7 +208,9 @@ void add_campaign_routes(Routes& routes, Services& services) {
           .parameter(doc::query("cursor", doc::text_schema(), "`next` of the page before"))
           .answer(200, "A page of campaigns.", doc::page_schema(kCampaign))
           .what()));
-  add_single_routes(routes, services);
+  const auto results = std::make_shared<CampaignResults>(services.reader);
+  add_single_routes(routes, services, results);
+  add_result_routes(routes, services, results);
   add_trial_routes(routes, services);
 }
 

@@ -11,20 +11,13 @@
 namespace vigil {
 namespace {
 
-/// lane.name, lane.node.name, with :variant where there is one.
-std::string label(const MetricValue& key) {
-  std::string text = key.lane;
-  if (!key.node.empty()) text += "." + key.node;
-  text += "." + key.name;
-  return key.variant.empty() ? text : text + ":" + key.variant;
-}
-
 /// The place of a metric among a cell's columns. Throws HttpError 400 with what there is.
 int place_of(const Json& columns, const std::string& wanted) {
   int place = 0;
   std::vector<std::string> known;
   for (const Json& item : columns) {
-    const std::string name = label({item.at("lane"), item.at("node"), item.at("name"), item.at("variant"), 0, false});
+    const std::string name =
+        item.at("lane").get<std::string>() + "." + metric_id(item.at("node"), item.at("name"), item.at("variant"));
     if (!item.contains("part")) {
       if (name == wanted) return place;
       known.push_back(name);
