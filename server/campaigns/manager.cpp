@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/campaigns/work.hpp"
+#include "server/crew/threads.hpp"
 #include "server/runs/designs.hpp"
 #include "server/runs/manager.hpp"
 #include "server/runs/refusal.hpp"
@@ -154,7 +155,8 @@ std::string CampaignManager::run(std::int64_t id) {
     current_.failed = row->failed;
     current_.begin = Clock::now();
   }
-  const bool whole = work.run(current_.stop, [this](std::int64_t done, const TrialResult& trial) {
+  ThreadCrew crew;
+  const bool whole = work.run(crew, current_.stop, [this](std::int64_t done, const TrialResult& trial) {
     progress(done, std::string_view(trial_state(trial)) != "finished");
   });
   return whole ? "finished" : "";

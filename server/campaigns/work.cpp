@@ -11,12 +11,6 @@ namespace {
 
 constexpr auto kBetweenCommits = std::chrono::milliseconds(250);
 
-class NullSink final : public Sink {
- public:
-  void frame(const Frame& /*frame*/) override {}
-  void mark(const Mark& /*mark*/) override {}
-};
-
 /// The trials of a cell that are in the log, merged.
 CampaignCell merged(const LogReader& reader, std::int64_t campaign, const CampaignCellRow& row, std::int64_t runs) {
   CampaignCell cell;
@@ -60,11 +54,11 @@ CampaignWork::CampaignWork(LogWriter& log, const LogReader& reader, std::int64_t
   columns_ = TrialColumns::from_json(cell->columns);
 }
 
-bool CampaignWork::run(const std::atomic<bool>& stop, const Each& each) {
+bool CampaignWork::run(Crew& crew, const std::atomic<bool>& stop, const Each& each) {
   plan_.trial = [&](std::int64_t index) { return make_trial(index, stop); };
   committed_ = Clock::now();
   std::int64_t done = plan_.first;
-  run_trials(plan_, stop, [&](std::int64_t index, const TrialResult& trial) {
+  crew.run(plan_, stop, [&](std::int64_t index, const TrialResult& trial) {
     take(index, trial);
     done = index + 1;
     if (each) each(done, trial);
@@ -76,31 +70,28 @@ bool CampaignWork::run(const std::atomic<bool>& stop, const Each& each) {
 }
 
 TrialResult CampaignWork::make_trial(std::int64_t index, const std::atomic<bool>& stop) {
+  if (!samples_) return plain_trial(plan_, index, stop);
   const CampaignPoint& point = plan_.points[static_cast<std::size_t>(index / plan_.runs)];
   try {
-    return step_through(point, index, stop);
+    return kept_trial(point, index, stop);
   } catch (const InputError& error) {
     return failed_trial(plan_, index, error.what());
   }
 }
 
-TrialResult CampaignWork::step_through(const CampaignPoint& point, std::int64_t index, const std::atomic<bool>& stop) {
-  const std::uint64_t seed = plan_.first_seed + static_cast<std::uint64_t>(index % plan_.runs);
-  Run run(point.scenario, {seed, plan_.trace, {}, point.designs});
+TrialResult CampaignWork::kept_trial(const CampaignPoint& point, std::int64_t index, const std::atomic<bool>& stop) {
+  Run run(point.scenario, {plan_.seed_of(index), plan_.trace, {}, point.designs});
   prepare_trial(run);
-  std::optional<SampledRun> kept;
-  if (samples_) {
-    kept.emplace(log_, id_, index, plan_, run);
+  SampledRun kept(log_, id_, index, plan_, run);
+  {
     const std::lock_guard lock(mutex_);
-    runs_[index] = kept->id();
+    runs_[index] = kept.id();
   }
-  NullSink none;
-  Sink& sink = kept ? static_cast<Sink&>(*kept) : none;
   while (!run.done()) {
     if (stop) throw TrialGivenUp();
-    run.step(sink);
+    run.step(kept);
   }
-  if (kept) kept->finish(run);
+  kept.finish(run);
   return take_trial(run);
 }
 

@@ -1,4 +1,4 @@
-/// The trials of one campaign on its threads, merged in order, committed in batches: what is committed is always the
+/// The trials of one campaign, made by its crew, merged in order, committed in batches: what is committed is always the
 /// first so many trials together with what was merged of exactly these.
 #pragma once
 
@@ -12,6 +12,7 @@
 #include "db/reader.hpp"
 #include "db/writer.hpp"
 #include "server/campaigns/request.hpp"
+#include "server/crew/crew.hpp"
 
 namespace vigil {
 
@@ -25,13 +26,14 @@ class CampaignWork {
 
   std::int64_t done() const { return plan_.first; }  ///< trials that were committed before
   /// Runs what is not committed; true where all of it is then. `each` is called on the calling thread, in trial order.
-  /// Ends early when `stop` becomes true. Throws LogError (disk) where the log cannot take it.
-  bool run(const std::atomic<bool>& stop, const Each& each);
+  /// Ends early when `stop` becomes true. Throws LogError (disk) where the log cannot take it, and what the crew
+  /// throws.
+  bool run(Crew& crew, const std::atomic<bool>& stop, const Each& each);
 
  private:
   using Clock = std::chrono::steady_clock;
   TrialResult make_trial(std::int64_t index, const std::atomic<bool>& stop);
-  TrialResult step_through(const CampaignPoint& point, std::int64_t index, const std::atomic<bool>& stop);
+  TrialResult kept_trial(const CampaignPoint& point, std::int64_t index, const std::atomic<bool>& stop);
   void take(std::int64_t index, const TrialResult& trial);
   TrialRow row_of(std::int64_t index, const TrialResult& trial);
   void close_cell(std::int64_t cell);

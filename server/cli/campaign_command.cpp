@@ -1,6 +1,9 @@
 // `vigil campaign`: many runs, and a grid of parameters.
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -10,9 +13,11 @@
 #include "server/cli/commands.hpp"
 #include "server/cli/files.hpp"
 #include "server/cli/gain_finder.hpp"
+#include "server/cli/nats_options.hpp"
 #include "server/cli/progress.hpp"
 #include "server/cli/report.hpp"
 #include "server/cli/scenario_options.hpp"
+#include "server/crew/threads.hpp"
 
 namespace vigil {
 namespace {
@@ -26,6 +31,7 @@ struct CampaignCommand {
   std::string db, json;
   bool samples = false;
   std::optional<std::int64_t> resume;
+  NatsFlags nats;
   GainFinder gains;
 };
 
@@ -77,24 +83,31 @@ CampaignPlan complete(CampaignCommand& command, const Asked& asked, const std::v
 
 struct Followed {
   std::vector<CellResult> cells;
-  std::int64_t ticks = 0;  ///< made by this process
+  std::int64_t ticks = 0;  ///< of the trials that this process merged
+  std::vector<CrewMember> crew;
 };
 
-Followed in_memory(CampaignPlan plan) {
-  plan.trial = [&plan](std::int64_t index) {
-    const CampaignPoint& point = plan.points[static_cast<std::size_t>(index / plan.runs)];
-    const std::uint64_t seed = plan.first_seed + static_cast<std::uint64_t>(index % plan.runs);
-    try {
-      return run_trial(point.scenario, seed, plan.trace, point.designs);
-    } catch (const InputError& error) {
-      return failed_trial(plan, index, error.what());
-    }
-  };
+/// Threads of this process, or the broker's workers. owner: as Broker::crew() has it.
+std::unique_ptr<Crew> hire(Broker* broker, const std::string& owner) {
+  return broker != nullptr ? broker->crew(owner) : std::make_unique<ThreadCrew>();
+}
+
+/// A campaign of a log, wherever it goes on from.
+std::string owner_of(const std::string& db, std::int64_t id) {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  std::error_code error;
+  return std::string(host) + ":" + std::filesystem::weakly_canonical(db, error).string() + "#" + std::to_string(id);
+}
+
+Followed in_memory(CampaignPlan plan, Broker* broker) {
+  const auto crew = hire(broker, "");
+  const std::atomic<bool> never{false};
+  plan.trial = [&](std::int64_t index) { return plain_trial(plan, index, never); };
   Progress progress("run", plan.trials());
   Followed followed;
   CampaignCell cell;
-  const std::atomic<bool> never{false};
-  run_trials(plan, never, [&](std::int64_t index, const TrialResult& trial) {
+  crew->run(plan, never, [&](std::int64_t index, const TrialResult& trial) {
     cell.add(trial);
     followed.ticks += trial.ticks;
     progress.at(index + 1);
@@ -103,6 +116,7 @@ Followed in_memory(CampaignPlan plan) {
     followed.cells.push_back({place, plan.points[static_cast<std::size_t>(place)].sweep, cell.result()});
     cell = {};
   });
+  followed.crew = crew->members();
   return followed;
 }
 
@@ -131,7 +145,7 @@ std::optional<CampaignRow> unfinished(const LogReader& reader, const CampaignCom
   return std::nullopt;
 }
 
-Followed logged(CampaignCommand& command, Asked& asked, CampaignPlan& plan) {
+Followed logged(CampaignCommand& command, Asked& asked, CampaignPlan& plan, Broker* broker) {
   LogWriter log(command.db);
   const LogReader reader(command.db);
   if (asked.trace) {
@@ -148,14 +162,16 @@ Followed logged(CampaignCommand& command, Asked& asked, CampaignPlan& plan) {
               << " trials are there already\n";
   }
   log.update_campaign(id, "running");
+  const auto crew = hire(broker, owner_of(command.db, id));
   Progress progress("run", plan.trials());
   Followed followed;
   const std::atomic<bool> never{false};
   CampaignWork(log, reader, id, plan, asked.request.samples)
-      .run(never, [&](std::int64_t done, const TrialResult& trial) {
+      .run(*crew, never, [&](std::int64_t done, const TrialResult& trial) {
         followed.ticks += trial.ticks;
         progress.at(done);
       });
+  followed.crew = crew->members();
   log.update_campaign(id, "finished");
   for (std::size_t cell = 0; cell < plan.points.size(); ++cell) {
     const auto place = static_cast<std::int64_t>(cell);
@@ -201,18 +217,22 @@ void print(const CampaignPlan& plan, const std::vector<CellResult>& cells) {
 int carry_out(CampaignCommand& command) {
   if (command.db.empty() && (command.samples || command.resume))
     throw UserError("--samples and --resume need --db FILE: the log that keeps the campaign");
+  if (command.samples && command.nats.given())
+    throw UserError("--samples keeps what this process makes; it does not go with --nats");
   Asked asked;
   if (!command.resume) asked = read(command);
   CampaignPlan plan;
   if (command.db.empty()) plan = complete(command, asked, {});
   const auto begin = std::chrono::steady_clock::now();
-  Followed followed = command.db.empty() ? in_memory(plan) : logged(command, asked, plan);
+  const auto broker = command.nats.given() ? command.nats.connect() : nullptr;
+  Followed followed = command.db.empty() ? in_memory(plan, broker.get()) : logged(command, asked, plan, broker.get());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (CellResult& cell : followed.cells)
     drop_seconds(cell.result["design"], plan.points[static_cast<std::size_t>(cell.cell)].designs);
   Json result = result_json(plan, followed.cells);
   const auto ticks = static_cast<double>(followed.ticks);
   result["timing"]["run"] = {{"seconds", seconds}, {"ticks_per_second", ticks / seconds}};
+  for (const CrewMember& member : followed.crew) result["timing"]["workers"].push_back(to_json(member));
   if (Json timing = command.gains.timing(); !timing.is_null()) result["timing"]["design"] = std::move(timing);
   if (command.json != "-") print(plan, followed.cells);
   if (!command.json.empty()) write_text(command.json, result.dump(2) + "\n");
@@ -232,7 +252,8 @@ void add_campaign(CLI::App& app, Action& action) {
   sub->add_option("--first-seed", command->first_seed, "1 without")
       ->check(CLI::Range(std::int64_t{0}, static_cast<std::int64_t>(kLargestSeed) - 10'000'000));
   sub->add_option("--threads", command->threads, "all cores without; the results do not depend on it")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, 1024))
+      ->excludes(command->nats.add_to(*sub, "let workers make the trials: a broker's URL (vigil worker)"));
   sub->add_option("--sweep", command->sweeps, "PATH=V1,V2,…: a grid over every --sweep")
       ->take_all()
       ->allow_extra_args(false);

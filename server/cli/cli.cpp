@@ -59,6 +59,7 @@ int run_command_line(int argc, char** argv) {
   add_serve(app, action);
   add_run(app, action);
   add_campaign(app, action);
+  add_worker(app, action);
   add_compare(app, action);
   add_papers(app, action);
   add_synthesize(app, action);

@@ -25,6 +25,7 @@ using Action = std::function<int()>;
 void add_serve(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_campaign(CLI::App& app, Action& action);
+void add_worker(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_papers(CLI::App& app, Action& action);
 void add_synthesize(CLI::App& app, Action& action);

@@ -36,6 +36,7 @@ struct CampaignPlan {
   std::function<TrialResult(std::int64_t index)> trial;
 
   std::int64_t trials() const { return runs * static_cast<std::int64_t>(points.size()); }
+  std::uint64_t seed_of(std::int64_t index) const { return first_seed + static_cast<std::uint64_t>(index % runs); }
 };
 
 /// Thrown out of a trial that nobody waits for any more.
@@ -82,14 +83,13 @@ const char* trial_state(const TrialResult& trial);
 /// What is kept of a trial whose scenario could not be run.
 TrialResult failed_trial(const CampaignPlan& plan, std::int64_t index, const std::string& error);
 
+/// A trial without samples; one whose scenario cannot be run is failed_trial(). Throws TrialGivenUp when `stop` becomes
+/// true.
+TrialResult plain_trial(const CampaignPlan& plan, std::int64_t index, const std::atomic<bool>& stop);
+
 /// All points of a grid: the product of the values. Throws InputError where one of them is not valid.
 std::vector<CampaignPoint> make_grid(const Scenario& base,
                                      const std::vector<std::pair<std::string, std::vector<Json>>>& sweeps);
-
-/// The trials from plan.first on; `each` is called in trial order, on the calling thread. Ends early when `stop`
-/// becomes true. Throws what a trial threw.
-void run_trials(const CampaignPlan& plan, const std::atomic<bool>& stop,
-                const std::function<void(std::int64_t index, const TrialResult&)>& each);
 
 /// `each` is called in trial order, on the calling thread. Ends early (with what is merged) when `stop` becomes true.
 /// Throws what a trial threw: InputError.
