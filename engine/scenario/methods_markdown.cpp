@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "engine/methods/detectors/detector.hpp"
+#include "engine/methods/equation.hpp"
 #include "engine/methods/privacy/protection.hpp"
 #include "engine/methods/words.hpp"
 #include "engine/scenario/markdown.hpp"
@@ -47,13 +48,22 @@ std::string resolved(const MethodWords& words, const ParamTable& params) {
   return text;
 }
 
+std::string drawn(const std::string& id) {
+  std::string text = "\n## Equations\n";
+  for (const Equation* one : equations_of(id)) {
+    text += fmt::format("\n{}{}\n\n```math\n{}\n```\n", one->says.en,
+                        one->number.empty() ? "." : ", " + one->number + ".", one->tex);
+  }
+  return text;
+}
+
 template <class Make>
 std::string page(const Entry<Make>& entry, const FamilyWords& found, const Kind& kind) {
   const MethodWords& words = found.words;
   std::string text =
       fmt::format("# {} / {}\n\n{} `{}`, {}. Source: {}. [All methods](README.md)\n\n{}.\n", entry.title.en,
                   entry.title.zh, kind.word, entry.id, found.family, entry.source, words.line);
-  text += "\n## Model\n\n" + words.model + "\n\n## Algorithm\n\n";
+  text += "\n## Model\n\n" + words.model + "\n" + drawn(entry.id) + "\n## Algorithm\n\n";
   for (std::size_t i = 0; i < words.steps.size(); ++i) text += fmt::format("{}. {}\n", i + 1, words.steps[i]);
   text += fmt::format("\n## Parameters\n\n{}\n\n{}", kind.where, parameters_table(entry.params));
   return text + "## Cost\n\n" + words.cost + "\n" + resolved(words, entry.params);
