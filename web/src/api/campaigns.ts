@@ -44,7 +44,8 @@ export interface MetricKey {
   variant: string | null;
 }
 
-export interface Statistics extends MetricKey {
+export interface Statistics {
+  lane: string;
   mean: number | null;
   se: number | null;
   median: number | null;
@@ -58,17 +59,42 @@ export interface Statistics extends MetricKey {
 export interface CellSummary {
   cell: number;
   sweep: Point;
-  done: number;
-  trials?: { finished: number; stopped: number; failed: number };
-  ticks?: number;
 }
 
+/** A metric whatever its lane: "name", "node.name", with ":variant"; and which lanes have it, by their place. */
+export interface MetricName {
+  id: string;
+  node: string | null;
+  lanes: number[];
+}
+
+/** A campaign without its figures. */
 export interface CampaignDetail extends CampaignItem {
   document: { lanes?: unknown } & Record<string, unknown>;
-  trials: { finished: number; stopped: number; failed: number };
   cells: CellSummary[];
-  metrics: (Statistics & { cell: number })[];
+  names: { lanes: string[]; metrics: MetricName[] };
   warnings: string[];
+}
+
+/** Figures of chosen metrics, point by point. */
+export interface CampaignResults {
+  from: number;
+  /** Trials that were there. */
+  done: number;
+  lanes: string[];
+  metrics: string[];
+  figures: string[];
+  /** Cell, place of the lane, place of the metric, figures. */
+  rows: (number | null)[][];
+}
+
+/** Values of chosen metrics, trial by trial from the index `from` on. */
+export interface TrialValues {
+  from: number;
+  n: number;
+  /** By their place among the metrics that were asked for. */
+  values: (number | null)[][];
+  next: number | null;
 }
 
 /** The difference `lane - base`, trial by trial, and its 95 % interval. */
@@ -100,7 +126,6 @@ export interface Detection {
 
 export interface CellResult {
   trials: { finished: number; stopped: number; failed: number };
-  metrics: Statistics[];
   paired: PairedDifference[];
   detection: Detection[];
 }
@@ -149,13 +174,17 @@ const path = (id: string, rest = ''): string => `/campaigns/${encodeURIComponent
 
 export const campaigns = {
   list: (query: { limit?: number; cursor?: string } = {}, signal?: AbortSignal) => get<Page<CampaignItem>>('/campaigns', query, signal),
-  one: (id: string, signal?: AbortSignal) => get<CampaignDetail>(path(id), {}, signal),
+  one: (id: string, signal?: AbortSignal) => get<CampaignDetail>(path(id), { results: 'false' }, signal),
+  results: (id: string, metric: string, from: number, signal?: AbortSignal) => get<CampaignResults>(path(id, '/results'), { metric, from }, signal),
+  values: (id: string, query: { metrics: readonly string[]; cell?: number; from?: number; limit?: number }, signal?: AbortSignal) =>
+    get<TrialValues>(path(id, '/values'), { metric: query.metrics.join(','), cell: query.cell, from: query.from, limit: query.limit }, signal),
   cell: async (id: string, cell: number, signal?: AbortSignal) => (await get<{ result: CellResult | null }>(path(id, `/cells/${cell}`), {}, signal)).result,
   trials: (id: string, query: TrialQuery, signal?: AbortSignal) => get<Page<TrialItem>>(path(id, '/trials'), { ...query }, signal),
   trial: (id: string, index: number, signal?: AbortSignal) => get<TrialDetail>(path(id, `/trials/${index}`), {}, signal),
   /** Starts a campaign. The same key sent again starts no second one. */
   start: (campaign: NewCampaign, key: string = freshKey()) => post<CampaignItem>('/campaigns', campaign, { 'Idempotency-Key': key }),
   set: (id: string, state: 'paused' | 'running' | 'cancelled') => patch<CampaignItem>(path(id), { state }),
+  describe: (id: string, words: { tags: string[]; note: string }) => patch<CampaignItem>(path(id), words),
   remove: (id: string) => remove(path(id)),
   /** All statistics as the server's own CSV. */
   csv: (id: string) => textOf(path(id), 'text/csv'),

@@ -2,8 +2,10 @@
 import type { CellSummary, Statistics } from '../../api/campaigns';
 import { colour, laneDash, laneToken } from '../../chart/colours';
 import { fit, type Scale } from '../../chart/scale';
+import { formatNumber } from '../../i18n/format.svelte';
+import { pointHits, zoomed } from './hits';
 import { boxOf, cut, place, rangeOf, xAxis, xTick, xTitle, yAxis, yTitle, type Box } from './plot';
-import type { Mark, Scene } from './scene';
+import type { Hit, Mark, Scene, Zoom } from './scene';
 import { valueText, type Results, type SweptAxis } from './stats';
 
 export type Band = 'wide' | 'half' | 'none';
@@ -87,7 +89,14 @@ function lineMarks(line: Line, xs: number[], y: (value: number) => number, joine
   return marks;
 }
 
-function frame(box: Box, axis: SweptAxis | null, lines: Line[], lanes: readonly string[]): { xs: number[]; marks: Mark[] } {
+interface Frame {
+  xs: number[];
+  marks: Mark[];
+  /** Of numbers that are swept. */
+  scale?: Scale;
+}
+
+function frame(box: Box, axis: SweptAxis | null, lines: Line[], lanes: readonly string[], zoom: Zoom): Frame {
   if (axis === null) {
     const x = (box.left + box.right) / 2;
     const marks = lines.map((line): Mark => ({ type: 'text', x: x + line.shift, y: box.bottom + 8, text: cut(lanes[line.lane]!, 82), fill: colour('muted'), align: 'end', turned: true }));
@@ -95,30 +104,41 @@ function frame(box: Box, axis: SweptAxis | null, lines: Line[], lanes: readonly 
   }
   const range = rangeOf(axis.at) ?? { lo: 0, hi: 1 };
   const room = (range.hi - range.lo || 1) * 0.04;
-  const scale: Scale = { log: false, lo: range.lo - room, hi: range.hi + room };
+  const scale = zoomed({ log: false, lo: range.lo - room, hi: range.hi + room }, axis.numeric ? zoom.x : undefined);
   const xs = axis.at.map((value) => place.x(box, scale, value));
   const step = (box.right - box.left) / Math.max(1, axis.at.length);
   const ticks = axis.numeric ? xAxis(box, scale) : axis.values.flatMap((value, i) => xTick(box, xs[i]!, cut(valueText(value), step)));
-  return { xs, marks: [...ticks, xTitle(box, cut(axis.path, box.right - box.left))] };
+  return { xs, marks: [...ticks, xTitle(box, cut(axis.path, box.right - box.left))], ...(axis.numeric ? { scale } : {}) };
 }
 
-export function bandsScene(question: BandsQuestion, width: number, height: number): Scene {
+/** Every point of every lane, in words. */
+function hitsOf(lines: Line[], xs: number[], y: (value: number) => number, { results, axis, cells }: BandsQuestion): Hit[] {
+  return lines.flatMap((line) =>
+    line.items.flatMap((one, i): Hit[] => {
+      if (one?.mean === null || one?.mean === undefined) return [];
+      const at = axis ? `${valueText(axis.values[i])}: ` : '';
+      const error = one.se === null ? '' : ` ± ${formatNumber(one.se, 2)}`;
+      const middle = one.median === null ? '' : `; ${formatNumber(one.median)} [${formatNumber(one.quantiles['0.05'])}, ${formatNumber(one.quantiles['0.95'])}]`;
+      return [{ x: xs[i]! + line.shift, y: y(one.mean), text: `${results.lanes[line.lane]}, ${at}${formatNumber(one.mean)}${error}${middle}; n ${one.n}`, key: cells[i]?.cell }];
+    }),
+  );
+}
+
+export function bandsScene(question: BandsQuestion, width: number, height: number, zoom: Zoom = {}): Scene {
   const lines = linesOf(question, width);
-  const scale = scaleOf(lines, question.band, question.log);
+  const scale = zoomed(scaleOf(lines, question.band, question.log), zoom.y);
   const box = boxOf(width, height, { left: 66, bottom: question.axis === null ? 92 : 38 });
   const y = (value: number): number => place.y(box, scale, value);
-  const below = frame(box, question.axis, lines, question.results.lanes);
+  const below = frame(box, question.axis, lines, question.results.lanes, zoom);
   const joined = question.axis !== null;
+  const inBox = ({ x, y: at }: Hit): boolean => x >= box.left && x <= box.right && at >= box.top && at <= box.bottom;
   return {
     width,
     height,
-    marks: [
-      ...yAxis(box, scale),
-      yTitle(box, cut(question.metric, box.bottom - box.top)),
-      ...below.marks,
-      ...lines.flatMap((line) => bandMarks(line, below.xs, y, question.band, !joined)),
-      ...lines.flatMap((line) => lineMarks(line, below.xs, y, joined)),
-    ],
+    marks: [...yAxis(box, scale), yTitle(box, cut(question.metric, box.bottom - box.top)), ...below.marks],
+    inside: { box, marks: [...lines.flatMap((line) => bandMarks(line, below.xs, y, question.band, !joined)), ...lines.flatMap((line) => lineMarks(line, below.xs, y, joined))] },
+    hits: pointHits(hitsOf(lines, below.xs, y, question).filter(inBox)),
+    axes: { box, x: below.scale, y: scale },
   };
 }
 

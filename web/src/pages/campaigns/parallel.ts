@@ -1,9 +1,11 @@
 /// Parallel coordinates: every trial a line over swept parameters and metrics.
-import { colour, laneToken } from '../../chart/colours';
+import { colour } from '../../chart/colours';
 import { fit, fraction, type Scale } from '../../chart/scale';
 import { formatNumber } from '../../i18n/format.svelte';
+import type { Brushes } from './brush';
+import { valueAt } from './hits';
 import { cut, rangeOf } from './plot';
-import type { Mark, Scene } from './scene';
+import type { Hits, Mark, Scene } from './scene';
 import { valueText } from './stats';
 
 export interface ParallelAxis {
@@ -15,11 +17,14 @@ export interface ParallelAxis {
 
 export interface TrialTable {
   axes: ParallelAxis[];
-  /** Row by row, an entry an axis; NaN where a trial has no value. */
+  /** Row by row, a row the trial of that index, an entry an axis; NaN where a trial has no value. */
   values: Float64Array;
   /** Cell of each row. */
   cells: Int32Array;
   rows: number;
+  /** Trials a cell, and the seed of the first. */
+  runs: number;
+  firstSeed: number;
 }
 
 export const mostTrials = 10_000;
@@ -29,19 +34,39 @@ interface Placed extends ParallelAxis {
   scale: Scale;
 }
 
-function placed(table: TrialTable, left: number, right: number): Placed[] {
-  const count = table.axes.length;
-  return table.axes.map((axis, i) => {
-    const x = count === 1 ? (left + right) / 2 : left + (i / (count - 1)) * (right - left);
-    if (axis.words) return { ...axis, x, scale: { log: false, lo: -0.5, hi: Math.max(0.5, axis.words.length - 0.5) } };
-    const column = Array.from({ length: table.rows }, (_, row) => table.values[row * count + i]!);
-    const range = rangeOf(column);
-    return { ...axis, x, scale: range && range.lo < range.hi ? { log: false, ...range } : fit(range, false) };
-  });
+/** Axes at their places in a drawing of this size. */
+export interface Frame {
+  axes: Placed[];
+  top: number;
+  bottom: number;
+  width: number;
+  height: number;
 }
 
-function axisMarks(axis: Placed, top: number, bottom: number, width: number): Mark[] {
-  const y = (value: number): number => bottom - fraction(axis.scale, value) * (bottom - top);
+function scaleOf(table: TrialTable, i: number): Scale {
+  const range = rangeOf(Array.from({ length: table.rows }, (_, row) => table.values[row * table.axes.length + i]!));
+  return range && range.lo < range.hi ? { log: false, ...range } : fit(range, false);
+}
+
+/** `close`: brushed axes show the brush alone. */
+export function frameOf(table: TrialTable, brushes: Brushes, close: boolean, width: number, height: number): Frame {
+  const [left, right] = [14, width - 14];
+  const count = table.axes.length;
+  const axes = table.axes.map((axis, i): Placed => {
+    const x = count === 1 ? (left + right) / 2 : left + (i / (count - 1)) * (right - left);
+    const scale = axis.words ? { log: false, lo: -0.5, hi: Math.max(0.5, axis.words.length - 0.5) } : scaleOf(table, i);
+    const brush = close ? brushes.get(axis.name) : undefined;
+    const part = brush && { log: false, lo: Math.max(brush.lo, scale.lo), hi: Math.min(brush.hi, scale.hi) };
+    return { ...axis, x, scale: part && part.lo < part.hi ? part : scale };
+  });
+  return { axes, top: 38, bottom: height - 20, width, height };
+}
+
+const yOf = ({ top, bottom }: Frame, scale: Scale, value: number): number => bottom - fraction(scale, value) * (bottom - top);
+
+function axisMarks(frame: Frame, axis: Placed, brush: { lo: number; hi: number } | undefined): Mark[] {
+  const { top, bottom, width } = frame;
+  const y = (value: number): number => yOf(frame, axis.scale, value);
   const align = axis.x > width - 60 ? 'end' : axis.x < 60 ? 'start' : 'middle';
   const room = axis.x > width - 60 || axis.x < 60 ? 130 : 150;
   const ends: Mark[] = axis.words
@@ -50,50 +75,95 @@ function axisMarks(axis: Placed, top: number, bottom: number, width: number): Ma
         { type: 'text', x: axis.x, y: top - 8, text: formatNumber(axis.scale.hi), fill: colour('ink'), align },
         { type: 'text', x: axis.x, y: bottom + 9, text: formatNumber(axis.scale.lo), fill: colour('ink'), align },
       ];
-  return [{ type: 'line', points: [axis.x, top, axis.x, bottom], colour: colour('ink'), width: 1.2 }, { type: 'text', x: axis.x, y: top - 22, text: cut(axis.name, room), fill: colour('muted'), align }, ...ends];
+  const bar: Mark[] = brush ? [{ type: 'rect', x: axis.x - 7, y: Math.max(top, y(brush.hi)), width: 14, height: Math.max(2, Math.min(bottom, y(brush.lo)) - Math.max(top, y(brush.hi))), fill: colour('accent'), alpha: 0.25, outline: colour('accent') }] : [];
+  return [{ type: 'line', points: [axis.x, top, axis.x, bottom], colour: colour('ink'), width: 1.2 }, ...bar, { type: 'text', x: axis.x, y: top - 22, text: cut(axis.name, room), fill: colour('muted'), align }, ...ends];
 }
 
-/** The points of the rows that are wanted, in one array. */
-function linesOf(table: TrialTable, axes: readonly Placed[], top: number, bottom: number, wanted: (cell: number) => boolean): Float32Array {
-  const count = axes.length;
-  let rows = 0;
-  for (let row = 0; row < table.rows; row++) if (wanted(table.cells[row]!)) rows++;
-  const points = new Float32Array(rows * count * 2);
+export const axesMarks = (frame: Frame, brushes: Brushes): Mark[] => frame.axes.flatMap((axis) => axisMarks(frame, axis, brushes.get(axis.name)));
+
+/** The points of some rows in one array. */
+export function linesOf(table: TrialTable, frame: Frame, rows: Int32Array): Float32Array {
+  const count = frame.axes.length;
+  const points = new Float32Array(rows.length * count * 2);
   let at = 0;
-  for (let row = 0; row < table.rows; row++) {
-    if (!wanted(table.cells[row]!)) continue;
+  for (const row of rows) {
     for (let i = 0; i < count; i++) {
-      const value = table.values[row * count + i]!;
-      points[at++] = axes[i]!.x;
-      points[at++] = bottom - fraction(axes[i]!.scale, value) * (bottom - top);
+      points[at++] = frame.axes[i]!.x;
+      points[at++] = yOf(frame, frame.axes[i]!.scale, table.values[row * count + i]!);
     }
   }
   return points;
 }
 
-export function parallelScene(table: TrialTable, chosen: number, oneCell: boolean, width: number, height: number): Scene {
-  const [top, bottom] = [38, height - 20];
-  const axes = placed(table, 14, width - 14);
-  const others = linesOf(table, axes, top, bottom, (cell) => oneCell || cell !== chosen);
-  const own = oneCell ? new Float32Array() : linesOf(table, axes, top, bottom, (cell) => cell === chosen);
-  const each = axes.length;
-  const faint = Math.max(0.12, Math.min(0.5, 60 / Math.max(1, table.rows)));
+/** How strong one of so many lines is. */
+export const strengthOf = (rows: number): number => Math.max(0.12, Math.min(0.5, 60 / Math.max(1, rows)));
+
+/** The whole picture in one list, for a file. */
+export function parallelScene(table: TrialTable, rows: Int32Array, brushes: Brushes, close: boolean, width: number, height: number): Scene {
+  const frame = frameOf(table, brushes, close, width, height);
+  const all = Int32Array.from({ length: table.rows }, (_, row) => row);
+  const whole = rows.length === table.rows;
+  const each = frame.axes.length;
   return {
     width,
     height,
     marks: [
-      { type: 'lines', points: others, each, colour: colour(oneCell ? laneToken(0) : 'control'), alpha: faint },
-      { type: 'lines', points: own, each, colour: colour('accent'), width: 1.2, alpha: 0.6 },
-      ...axes.flatMap((axis) => axisMarks(axis, top, bottom, width)),
+      ...(whole || close ? [] : [{ type: 'lines', points: linesOf(table, frame, all), each, colour: colour('control'), alpha: strengthOf(table.rows) } as Mark]),
+      { type: 'lines', points: linesOf(table, frame, rows), each, colour: colour('accent'), alpha: strengthOf(rows.length) },
+      ...axesMarks(frame, brushes),
     ],
   };
 }
 
-export function parallelTable({ axes, values, cells, rows }: TrialTable): { columns: string[]; rows: (string | number)[][] } {
+/** The trials of some rows; the nearest is looked for along the line between two axes. */
+export function parallelHits(table: TrialTable, frame: Frame, rows: Int32Array, say: (row: number) => string): Hits {
+  const count = frame.axes.length;
+  const y = (row: number, i: number): number => yOf(frame, frame.axes[i]!.scale, table.values[row * count + i]!);
+  const near = (px: number, py: number): number => {
+    let left = 0;
+    while (left < count - 2 && frame.axes[left + 1]!.x <= px) left++;
+    const right = Math.min(count - 1, left + 1);
+    const [ax, bx] = [frame.axes[left]!.x, frame.axes[right]!.x];
+    const share = bx > ax ? Math.max(0, Math.min(1, (px - ax) / (bx - ax))) : 0;
+    let best = -1;
+    let least = 8;
+    for (let i = 0; i < rows.length; i++) {
+      const away = Math.abs((1 - share) * y(rows[i]!, left) + share * y(rows[i]!, right) - py);
+      if (away < least) [best, least] = [i, away];
+    }
+    return best;
+  };
+  const at = (i: number): ReturnType<Hits['at']> => {
+    const row = rows[i]!;
+    const path = linesOf(table, frame, Int32Array.of(row));
+    return { x: path[2 * count - 2]!, y: path[2 * count - 1]!, text: say(row), key: row, path };
+  };
+  return { count: rows.length, at, near };
+}
+
+/** The axis that a stroke of the pointer began on, and the values it covers. */
+export function brushOf(frame: Frame, x: number, ay: number, by: number): { name: string; lo: number; hi: number } | null {
+  const axis = frame.axes.find((one) => Math.abs(one.x - x) <= 18);
+  if (!axis) return null;
+  const share = (y: number): number => Math.max(0, Math.min(1, (frame.bottom - y) / (frame.bottom - frame.top)));
+  return { name: axis.name, lo: valueAt(axis.scale, share(Math.max(ay, by))), hi: valueAt(axis.scale, share(Math.min(ay, by))) };
+}
+
+/** A trial with its values, in words. */
+export function rowText({ axes, values }: TrialTable, row: number): string {
+  return axes
+    .map(({ name, words }, i) => {
+      const value = values[row * axes.length + i]!;
+      return `${name.split('.').slice(-2).join('.')} ${words?.[value] ?? formatNumber(value)}`;
+    })
+    .join(' · ');
+}
+
+export function parallelTable({ axes, values, cells, runs, firstSeed }: TrialTable, rows: Int32Array): { columns: string[]; rows: (string | number)[][] } {
   const cell = (value: number, axis: ParallelAxis): string | number => (Number.isNaN(value) ? '' : (axis.words?.[value] ?? value));
   return {
-    columns: ['cell', ...axes.map((axis) => axis.name)],
-    rows: Array.from({ length: rows }, (_, row) => [cells[row]!, ...axes.map((axis, i) => cell(values[row * axes.length + i]!, axis))]),
+    columns: ['trial', 'seed', 'cell', ...axes.map((axis) => axis.name)],
+    rows: Array.from(rows, (row) => [row, firstSeed + (row % runs), cells[row]!, ...axes.map((axis, i) => cell(values[row * axes.length + i]!, axis))]),
   };
 }
 

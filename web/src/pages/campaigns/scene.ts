@@ -1,5 +1,7 @@
 /// A drawing as a list of marks: the same list is painted on a canvas and written as SVG. CSS pixels.
 import { axisFont } from '../../chart/axes';
+import type { Scale } from '../../chart/scale';
+import type { Box } from './plot';
 
 export interface Stroke {
   colour: string;
@@ -15,12 +17,44 @@ export type Mark =
   | { type: 'area'; points: readonly number[]; fill: string; alpha?: number }
   | { type: 'rect'; x: number; y: number; width: number; height: number; fill?: string; alpha?: number; outline?: string }
   | { type: 'dot'; x: number; y: number; radius: number; fill?: string; outline?: string; alpha?: number }
+  /** Many alike: x and y by turns. */
+  | { type: 'dots'; points: readonly number[]; radius: number; fill: string; alpha?: number }
   | { type: 'text'; x: number; y: number; text: string; fill: string; align?: 'start' | 'middle' | 'end'; turned?: boolean };
+
+/** Something that has values to read. */
+export interface Hit {
+  x: number;
+  y: number;
+  text: string;
+  /** What a click on it means to the figure, e.g. a trial's index. */
+  key?: number;
+  /** Drawn strongly while it is pointed at: x and y by turns. */
+  path?: ArrayLike<number>;
+}
+
+/** What can be pointed at, in the order in which the keyboard goes through it. */
+export interface Hits {
+  count: number;
+  at: (i: number) => Hit;
+  /** The nearest one within reach of a place, -1: none. */
+  near: (x: number, y: number) => number;
+}
 
 export interface Scene {
   width: number;
   height: number;
   marks: Mark[];
+  /** Drawn above them and cut at a box: what a zoom may push out of it. */
+  inside?: { box: Box; marks: Mark[] };
+  hits?: Hits;
+  /** Scales that can be zoomed. */
+  axes?: { box: Box; x?: Scale; y?: Scale };
+}
+
+/** What a figure is zoomed to, in values; an axis that is missing is whole. */
+export interface Zoom {
+  x?: { lo: number; hi: number };
+  y?: { lo: number; hi: number };
 }
 
 /** Lines stroked in one go: where they overlap within it, their transparency does not add up. */
@@ -56,6 +90,18 @@ function paintLines(context: CanvasRenderingContext2D, mark: Extract<Mark, { typ
   }
 }
 
+function paintDots(context: CanvasRenderingContext2D, { points, radius, fill }: Extract<Mark, { type: 'dots' }>): void {
+  context.fillStyle = fill;
+  for (let from = 0; from < points.length; from += 2 * kAtOnce) {
+    context.beginPath();
+    for (let i = from; i < Math.min(points.length, from + 2 * kAtOnce); i += 2) {
+      context.moveTo(points[i]! + radius, points[i + 1]!);
+      context.arc(points[i]!, points[i + 1]!, radius, 0, 2 * Math.PI);
+    }
+    context.fill();
+  }
+}
+
 function paintText(context: CanvasRenderingContext2D, mark: Extract<Mark, { type: 'text' }>): void {
   context.font = axisFont;
   context.fillStyle = mark.fill;
@@ -70,6 +116,7 @@ function paintMark(context: CanvasRenderingContext2D, mark: Mark): void {
   context.globalAlpha = 'alpha' in mark && mark.alpha !== undefined ? mark.alpha : 1;
   if (mark.type === 'lines') return paintLines(context, mark);
   if (mark.type === 'text') return paintText(context, mark);
+  if (mark.type === 'dots') return paintDots(context, mark);
   context.beginPath();
   if (mark.type === 'line' || mark.type === 'area') trace(context, mark.points, 0, mark.points.length);
   if (mark.type === 'rect') context.rect(mark.x, mark.y, mark.width, mark.height);
@@ -82,67 +129,22 @@ function paintMark(context: CanvasRenderingContext2D, mark: Mark): void {
   if ((mark.type === 'rect' || mark.type === 'dot') && mark.outline) stroke(context, { colour: mark.outline, width: 1.6 });
 }
 
-export function paint(context: CanvasRenderingContext2D, scene: Scene): void {
-  for (const mark of scene.marks) {
+function paintAll(context: CanvasRenderingContext2D, marks: readonly Mark[]): void {
+  for (const mark of marks) {
     context.save();
     paintMark(context, mark);
     context.restore();
   }
 }
 
-const escaped = (text: string): string => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
-const short = (value: number): string => String(Math.round(value * 100) / 100);
-
-function pathOf(points: ArrayLike<number>, from: number, to: number): string {
-  let text = '';
-  let down = false;
-  for (let i = from; i < to; i += 2) {
-    const there = Number.isFinite(points[i]!) && Number.isFinite(points[i + 1]!);
-    if (there) text += `${down ? 'L' : 'M'}${short(points[i]!)} ${short(points[i + 1]!)}`;
-    down = there;
-  }
-  return text;
-}
-
-function strokeText(mark: Stroke): string {
-  const dash = mark.dash?.length ? ` stroke-dasharray="${mark.dash.join(' ')}"` : '';
-  const alpha = mark.alpha === undefined ? '' : ` stroke-opacity="${mark.alpha}"`;
-  return `fill="none" stroke="${escaped(mark.colour)}" stroke-width="${mark.width ?? 1}"${dash}${alpha}`;
-}
-
-const fillText = (fill: string | undefined, alpha: number | undefined, outline?: string): string =>
-  `fill="${escaped(fill ?? 'none')}"${alpha === undefined ? '' : ` fill-opacity="${alpha}"`}${outline ? ` stroke="${escaped(outline)}" stroke-width="1.6"` : ''}`;
-
-function markText(mark: Mark): string {
-  switch (mark.type) {
-    case 'line':
-      return `<path d="${pathOf(mark.points, 0, mark.points.length)}" ${strokeText(mark)}/>`;
-    case 'lines': {
-      const parts: string[] = [];
-      for (let i = 0; i < mark.points.length; i += 2 * mark.each) parts.push(`<path d="${pathOf(mark.points, i, i + 2 * mark.each)}"/>`);
-      return `<g ${strokeText(mark)}>${parts.join('')}</g>`;
-    }
-    case 'area':
-      return `<path d="${pathOf(mark.points, 0, mark.points.length)}Z" ${fillText(mark.fill, mark.alpha)}/>`;
-    case 'rect':
-      return `<rect x="${short(mark.x)}" y="${short(mark.y)}" width="${short(mark.width)}" height="${short(mark.height)}" ${fillText(mark.fill, mark.alpha, mark.outline)}/>`;
-    case 'dot':
-      return `<circle cx="${short(mark.x)}" cy="${short(mark.y)}" r="${mark.radius}" ${fillText(mark.fill, mark.alpha, mark.outline)}/>`;
-    case 'text': {
-      const turn = mark.turned ? ` transform="rotate(-90 ${short(mark.x)} ${short(mark.y)})"` : '';
-      return `<text x="${short(mark.x)}" y="${short(mark.y)}" text-anchor="${mark.align ?? 'start'}" dominant-baseline="central" fill="${escaped(mark.fill)}"${turn}>${escaped(mark.text)}</text>`;
-    }
-  }
-}
-
-/** A file of its own, with the surface behind it and the title above. */
-export function svgText(scene: Scene, title: string, surface: string, ink: string): string {
-  const head = 24;
-  return [
-    `<svg xmlns="http://www.w3.org/2000/svg" width="${scene.width}" height="${scene.height + head}" viewBox="0 ${-head} ${scene.width} ${scene.height + head}" font-family="IBM Plex Mono, monospace" font-size="10.5">`,
-    `<rect x="0" y="${-head}" width="100%" height="100%" fill="${escaped(surface)}"/>`,
-    `<text x="8" y="-8" font-family="Inter, sans-serif" font-size="13" font-weight="600" fill="${escaped(ink)}">${escaped(title)}</text>`,
-    ...scene.marks.map(markText),
-    '</svg>\n',
-  ].join('\n');
+export function paint(context: CanvasRenderingContext2D, scene: Scene): void {
+  paintAll(context, scene.marks);
+  if (!scene.inside) return;
+  const { box, marks } = scene.inside;
+  context.save();
+  context.beginPath();
+  context.rect(box.left - 4, box.top - 4, box.right - box.left + 8, box.bottom - box.top + 8);
+  context.clip();
+  paintAll(context, marks);
+  context.restore();
 }

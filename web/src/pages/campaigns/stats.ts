@@ -1,5 +1,5 @@
 /// The results of a campaign by metric, lane and point.
-import type { CampaignDetail, CellSummary, MetricKey, Point, Statistics } from '../../api/campaigns';
+import type { CampaignDetail, CampaignResults, CellSummary, MetricKey, MetricName, Point, Statistics } from '../../api/campaigns';
 
 /** A metric whatever its lane: "name", "node.name", with ":variant". */
 export function metricId({ node, name, variant }: Omit<MetricKey, 'lane'>): string {
@@ -11,31 +11,49 @@ export const trialMetric = (lane: string, metric: string): string => `${lane}.${
 
 export interface Results {
   /** Over the whole network first, then node by node. */
-  metrics: { id: string; node: boolean }[];
+  metrics: MetricName[];
   lanes: string[];
+  /** Whether any point has it. */
+  has: (metric: string, lane: number) => boolean;
+  /** Undefined also where the metric's figures are not there yet. */
   of: (metric: string, lane: string, cell: number) => Statistics | undefined;
 }
 
-const resultKey = (metric: string, lane: string, cell: number): string => `${metric}|${lane}|${cell}`;
+export type FigureTable = ReadonlyMap<string, Statistics>;
 
-export function resultsOf(all: CampaignDetail['metrics']): Results {
-  const metrics = new Map<string, boolean>();
-  const lanes = new Set<string>();
-  const table = new Map<string, Statistics>();
-  for (const one of all) {
-    const id = metricId(one);
-    metrics.set(id, one.node !== null);
-    lanes.add(one.lane);
-    table.set(resultKey(id, one.lane, one.cell), one);
+const figureKey = (metric: string, lane: string, cell: number): string => `${metric}|${lane}|${cell}`;
+
+/** The figures of an answer beside those that are there; what it tells anew takes the place of the old. */
+export function takeFigures(table: Map<string, Statistics>, answer: CampaignResults): void {
+  const place = new Map(answer.figures.map((name, i) => [name, i + 3]));
+  const figure = (row: (number | null)[], name: string): number | null => row[place.get(name) ?? -1] ?? null;
+  for (const row of answer.rows) {
+    const lane = answer.lanes[row[1]!]!;
+    const metric = answer.metrics[row[2]!]!;
+    const quantiles = Object.fromEntries(['0.05', '0.25', '0.75', '0.95'].map((p) => [p, figure(row, p)]));
+    table.set(figureKey(metric, lane, row[0]!), { lane, mean: figure(row, 'mean'), se: figure(row, 'se'), median: figure(row, 'median'), min: figure(row, 'min'), max: figure(row, 'max'), quantiles, n: figure(row, 'n') ?? 0 });
   }
-  const list = [...metrics].map(([id, node]) => ({ id, node }));
-  return { metrics: [...list.filter((one) => !one.node), ...list.filter((one) => one.node)], lanes: [...lanes], of: (metric, lane, cell) => table.get(resultKey(metric, lane, cell)) };
+}
+
+export function resultsOf({ lanes, metrics }: CampaignDetail['names'], table: FigureTable): Results {
+  const known = new Map(metrics.map(({ id, lanes: own }) => [id, new Set(own)]));
+  return {
+    metrics: [...metrics.filter((one) => !one.node), ...metrics.filter((one) => one.node)],
+    lanes,
+    has: (metric, lane) => known.get(metric)?.has(lane) ?? false,
+    of: (metric, lane, cell) => table.get(figureKey(metric, lane, cell)),
+  };
+}
+
+/** How many trials of a cell are there. */
+export function doneOf({ progress, runs }: Pick<CampaignDetail, 'progress' | 'runs'>, cell: number): number {
+  return Math.max(0, Math.min(runs, progress.done - cell * runs));
 }
 
 /** What to show before anybody has chosen: an error if there is one. */
-export function firstMetric(results: Results): string {
-  const whole = results.metrics.filter((one) => !one.node);
-  return (whole.find(({ id }) => /^(rmse|rms|mse)/.test(id)) ?? whole[0] ?? results.metrics[0])?.id ?? '';
+export function firstMetric(metrics: readonly MetricName[]): string {
+  const whole = metrics.filter((one) => !one.node);
+  return (whole.find(({ id }) => /^(rmse|rms|mse)/.test(id)) ?? whole[0] ?? metrics[0])?.id ?? '';
 }
 
 /** A swept value in few characters. */

@@ -3,7 +3,7 @@ import type { CellSummary, Point } from '../../api/campaigns';
 import { colour, laneToken } from '../../chart/colours';
 import { formatNumber } from '../../i18n/format.svelte';
 import { boxOf, cut, rangeOf, xTitle, yTitle, type Box } from './plot';
-import type { Mark, Scene } from './scene';
+import type { Hit, Hits, Mark, Scene } from './scene';
 import { cellAt, valueText, type Results, type SweptAxis } from './stats';
 
 export interface SurfaceQuestion {
@@ -77,15 +77,24 @@ export function surfaceScene(question: SurfaceQuestion, chosen: number, width: n
   }
   // What is chosen is drawn above its neighbours.
   marks.sort((a, b) => Number(a.type === 'rect' && a.outline !== undefined) - Number(b.type === 'rect' && b.outline !== undefined));
-  return { width, height, marks: [...marks, ...(range ? legend(box, range, fill) : []), ...labels(box, x, y, wide, tall)] };
+  return { width, height, marks: [...marks, ...(range ? legend(box, range, fill) : []), ...labels(box, x, y, wide, tall)], hits: hitsOf(question, cells, box) };
 }
 
-/** The cell at a place of the drawing, null beside it. */
-export function surfaceCellAt(question: SurfaceQuestion, width: number, height: number, px: number, py: number): number | null {
-  const box = boxFor(width, height);
-  const i = Math.floor(((px - box.left) / (box.right - box.left)) * question.x.values.length);
-  const j = Math.floor(((box.bottom - py) / (box.bottom - box.top)) * question.y.values.length);
-  return surfaceCells(question).find((one) => one.i === i && one.j === j)?.cell ?? null;
+/** Column by column, each from below. */
+function hitsOf({ x, y, metric, lane, results }: SurfaceQuestion, cells: readonly SurfaceCell[], box: Box): Hits {
+  const [across, up] = [x.values.length, y.values.length];
+  const [wide, tall] = [(box.right - box.left) / across, (box.bottom - box.top) / up];
+  const at = (i: number): Hit => {
+    const { i: column, j: row, cell, mean } = cells[i]!;
+    const one = results.of(metric, results.lanes[lane]!, cell);
+    const error = one?.se === null || one?.se === undefined ? '' : ` ± ${formatNumber(one.se, 2)}`;
+    return { x: box.left + (column + 0.5) * wide, y: box.bottom - (row + 0.5) * tall, text: `${valueText(x.values[column])}, ${valueText(y.values[row])}: ${formatNumber(mean)}${error}`, key: cell };
+  };
+  const near = (px: number, py: number): number => {
+    const [i, j] = [Math.floor((px - box.left) / wide), Math.floor((box.bottom - py) / tall)];
+    return cells.findIndex((one) => one.i === i && one.j === j);
+  };
+  return { count: cells.length, at, near };
 }
 
 export function surfaceTable(question: SurfaceQuestion): { columns: string[]; rows: (string | number)[][] } {

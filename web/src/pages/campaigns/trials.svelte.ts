@@ -2,10 +2,19 @@
 import { campaigns, type TrialItem } from '../../api/campaigns';
 import { ApiProblem } from '../../api/problem';
 
-/** As many as the server gives at once. */
+/** As many as are drawn. */
 const kMost = 10_000;
+/** Trials of a point that is under way are read anew at most this often, ms. */
+const kOften = 3000;
+
+export interface TrialValue {
+  index: number;
+  value: number;
+}
 
 export class TrialsOf {
+  /** Those that have the metric, in order of their index. */
+  values = $state.raw<TrialValue[]>([]);
   /** The farthest from the median first. */
   items = $state.raw<TrialItem[]>([]);
   /** Those that failed or lost a lane. */
@@ -13,23 +22,40 @@ export class TrialsOf {
   problem = $state.raw<unknown>(null);
   loading = $state(false);
   #abort = new AbortController();
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #asked = '';
+  #begun = -Infinity;
 
-  async ask(id: string, cell: number, metric: string): Promise<void> {
+  /** `listed`: how many of the outliers. The same asked again soon waits. */
+  ask(id: string, cell: number, metric: string, listed: number): void {
+    clearTimeout(this.#timer);
+    const key = `${id} ${cell} ${metric} ${listed}`;
+    const rest = key === this.#asked ? this.#begun + kOften - performance.now() : 0;
+    this.#asked = key;
+    if (rest > 0) this.#timer = setTimeout(() => void this.#read(id, cell, metric, listed), rest);
+    else void this.#read(id, cell, metric, listed);
+  }
+
+  async #read(id: string, cell: number, metric: string, listed: number): Promise<void> {
     this.#abort.abort();
     const { signal } = (this.#abort = new AbortController());
+    this.#begun = performance.now();
     this.loading = true;
     try {
-      const [values, failed, stopped] = await Promise.all([
-        campaigns.trials(id, { cell, metric, sort: 'outlier', limit: kMost }, signal),
+      const [values, far, failed, stopped] = await Promise.all([
+        campaigns.values(id, { metrics: [metric], cell, limit: kMost }, signal),
+        campaigns.trials(id, { cell, metric, sort: 'outlier', limit: listed }, signal),
         campaigns.trials(id, { cell, state: 'failed', limit: 20 }, signal),
         campaigns.trials(id, { cell, state: 'stopped', limit: 20 }, signal),
       ]);
       if (signal.aborted) return;
-      this.items = values.items;
+      this.values = (values.values[0] ?? []).flatMap((value, i) => (value === null ? [] : [{ index: values.from + i, value }]));
+      this.items = far.items;
       this.broken = [...failed.items, ...stopped.items];
       this.problem = null;
     } catch (error) {
       if (signal.aborted) return;
+      this.values = [];
       this.items = [];
       this.broken = [];
       // A lane without this metric has no values: the picture says so.
@@ -40,6 +66,7 @@ export class TrialsOf {
 
   close(): void {
     this.#abort.abort();
+    clearTimeout(this.#timer);
   }
 }
 
