@@ -10,9 +10,14 @@
 namespace vigil {
 
 Assembler::Assembler(const PushedColumns& columns, AssemblerLimits limits)
-    : columns_(columns), limits_(limits), awaited_(columns.nodes.size() + 1, 0) {
-  for (const int reporter : columns.reporter) {
-    if (reporter >= 0) awaited_[static_cast<std::size_t>(reporter)] = 1;
+    : columns_(columns),
+      limits_(limits),
+      awaited_(columns.nodes.size() + 1, 0),
+      parts_(columns.nodes.size() + 1, 0),
+      seqs_(limits.seqs) {
+  for (std::size_t c = 0; c < columns.names.size(); ++c) {
+    if (columns.reporter[c] >= 0) awaited_[group(static_cast<int>(c))] = 1;
+    if (columns.reporter[c] >= 0 || columns.names[c].starts_with("input.")) ++parts_[group(static_cast<int>(c))];
   }
   awaited_.back() = columns.inputs ? 1 : 0;
 }
@@ -55,10 +60,12 @@ void Assembler::take(const IngestRow& row, double now, Tally& tally) {
     ++tally.beyond;
   } else if (row.k <= closed_) {
     ++tally.late;
-  } else if (known(row) || !apply(row, reach(row.k, now))) {
+  } else if (row.seq && seqs_.known(row.memory(columns_), *row.seq)) {
+    ++tally.duplicate;
+  } else if (OpenTick& tick = reach(row.k, now); !(row.partial ? apply_partial(row, tick) : apply(row, tick))) {
     ++tally.duplicate;
   } else {
-    remember(row);
+    if (row.seq) seqs_.remember(row.memory(columns_), *row.seq);
     ++tally.accepted;
     close_complete();
   }
@@ -70,6 +77,8 @@ Assembler::OpenTick& Assembler::reach(std::int64_t k, double now) {
     OpenTick tick;
     tick.cells.assign(columns_.names.size(), std::numeric_limits<double>::quiet_NaN());
     tick.reported.assign(awaited_.size(), 0);
+    tick.seen.assign(columns_.names.size(), 0);
+    tick.left = parts_;
     tick.missing = static_cast<std::size_t>(std::count(awaited_.begin(), awaited_.end(), 1));
     tick.since = now;
     window_.push_back(std::move(tick));
@@ -80,15 +89,14 @@ Assembler::OpenTick& Assembler::reach(std::int64_t k, double now) {
 /// False where all of it was there already. What a part said first, it said.
 bool Assembler::apply(const IngestRow& row, OpenTick& tick) {
   const std::vector<char> before = tick.reported;
-  const auto report = [&](std::size_t part) {
+  const auto first = [&](std::size_t part) {
     if (before[part] != 0) return false;
-    if (tick.reported[part] == 0 && awaited_[part] != 0) --tick.missing;
-    tick.reported[part] = 1;
+    report(tick, part);
     return true;
   };
-  bool fresh = row.source >= 0 ? report(static_cast<std::size_t>(row.source)) : row.values.empty() && !tick.touched;
+  bool fresh = row.source >= 0 ? first(static_cast<std::size_t>(row.source)) : row.values.empty() && !tick.touched;
   for (const auto& [column, value] : row.values) {
-    if (!report(group(column))) continue;
+    if (!first(group(column))) continue;
     tick.cells[static_cast<std::size_t>(column)] = value;
     fresh = true;
   }
@@ -96,19 +104,26 @@ bool Assembler::apply(const IngestRow& row, OpenTick& tick) {
   return fresh;
 }
 
-bool Assembler::known(const IngestRow& row) const {
-  const auto place = row.seq ? seqs_.find(row.source) : seqs_.end();
-  return place != seqs_.end() && place->second.known.contains(*row.seq);
+/// A part whose rows bring a column each has reported when all of its columns are there.
+bool Assembler::apply_partial(const IngestRow& row, OpenTick& tick) {
+  bool fresh = false;
+  for (const auto& [column, value] : row.values) {
+    const auto c = static_cast<std::size_t>(column);
+    const std::size_t part = group(column);
+    if (tick.reported[part] != 0 || tick.seen[c] != 0) continue;
+    tick.seen[c] = 1;
+    tick.cells[c] = value;
+    fresh = true;
+    const bool counts = columns_.reporter[c] >= 0 || columns_.names[c].starts_with("input.");
+    if (counts && --tick.left[part] == 0) report(tick, part);
+  }
+  tick.touched = true;
+  return fresh;
 }
 
-void Assembler::remember(const IngestRow& row) {
-  if (!row.seq) return;
-  Seqs& seqs = seqs_[row.source];
-  seqs.known.insert(*row.seq);
-  seqs.order.push_back(*row.seq);
-  if (seqs.order.size() <= limits_.seqs) return;
-  seqs.known.erase(seqs.order.front());
-  seqs.order.pop_front();
+void Assembler::report(OpenTick& tick, std::size_t group) const {
+  if (tick.reported[group] == 0 && awaited_[group] != 0) --tick.missing;
+  tick.reported[group] = 1;
 }
 
 void Assembler::close_front() {

@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <set>
-#include <unordered_map>
 #include <vector>
 
 #include "server/ingest/read_rows.hpp"
+#include "server/ingest/seq_memory.hpp"
 
 namespace vigil {
 
@@ -52,21 +51,18 @@ class Assembler {
   struct OpenTick {
     std::vector<double> cells;
     std::vector<char> reported;  ///< by node, then nobody in particular
+    std::vector<char> seen;      ///< by column, of partial rows
+    std::vector<int> left;       ///< by group: columns that its partial rows have not brought
     std::size_t missing = 0;     ///< reports that are waited for
     double since = 0;            ///< s
     bool touched = false;
   };
-  struct Seqs {
-    std::set<std::uint64_t> known;
-    std::deque<std::uint64_t> order;
-  };
-
   void check_ahead(const std::vector<IngestRow>& rows) const;
   OpenTick& reach(std::int64_t k, double now);
   void take(const IngestRow& row, double now, Tally& tally);
   bool apply(const IngestRow& row, OpenTick& tick);
-  bool known(const IngestRow& row) const;
-  void remember(const IngestRow& row);
+  bool apply_partial(const IngestRow& row, OpenTick& tick);
+  void report(OpenTick& tick, std::size_t group) const;
   void close_front();
   void close_complete();
   std::size_t group(int column) const;
@@ -74,9 +70,10 @@ class Assembler {
   const PushedColumns& columns_;
   const AssemblerLimits limits_;
   std::vector<char> awaited_;    ///< by group: a tick waits for it
+  std::vector<int> parts_;       ///< by group: columns that its partial rows bring
   std::deque<OpenTick> window_;  ///< of tick closed_ + 1 and on
   std::deque<std::vector<double>> ready_;
-  std::unordered_map<int, Seqs> seqs_;
+  SeqMemory seqs_;
   std::int64_t closed_ = -1;
 };
 

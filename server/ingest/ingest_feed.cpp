@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kWaitingCells = 2'000'000;  // of closed ticks that the run has not made: 16 MB
 constexpr std::size_t kWaitingTicks = 10'000;
+constexpr std::size_t kReasons = 5;
 
 std::size_t room_for(const PushedColumns& columns) {
   return std::clamp<std::size_t>(kWaitingCells / std::max<std::size_t>(columns.names.size(), 1), 1, kWaitingTicks);
@@ -55,12 +56,15 @@ IngestOptions read_ingest(const Json& input) {
   const Json& ingest = input.at("ingest");
   if (input.size() != 1 || !ingest.is_object())
     throw InputError("/input", "input is " + shown(input) + "; expected {\"ingest\":{…}}",
-                     "\"ingest\" or {\"ingest\":{\"deadline\":s,\"columns\":[…]}}");
+                     "\"ingest\" or {\"ingest\":{\"deadline\":s,\"columns\":[…],\"mqtt\":…}}");
   for (const auto& [key, value] : ingest.items()) {
     if (key == "columns") {
       options.further = read_columns(value);
+    } else if (key == "mqtt") {
+      options.plant = PlantOptions::from_json(value, "/input/ingest/mqtt");
     } else if (key != "deadline") {
-      throw InputError(child("/input/ingest", key), "there is no " + in_quotes(key) + " here", "deadline, columns");
+      throw InputError(child("/input/ingest", key), "there is no " + in_quotes(key) + " here",
+                       "deadline, columns, mqtt");
     } else {
       const double seconds = value.is_number() ? value.get<double>() : 0;
       if (!(seconds >= 0.001 && seconds <= 3600))
@@ -79,37 +83,63 @@ IngestFeed::IngestFeed(const Scenario& scenario, IngestOptions options)
       room_(room_for(columns_)),
       trace_(std::make_shared<Trace>(Trace::growing(columns_.names))),
       start_(options_.clock ? options_.clock() : std::chrono::steady_clock::now()),
-      assembler_(columns_, limits_of(scenario, options_, room_)) {}
-
-double IngestFeed::now() const {
-  const Time time = options_.clock ? options_.clock() : std::chrono::steady_clock::now();
-  return std::chrono::duration<double>(time - start_).count();
+      assembler_(columns_, limits_of(scenario, options_, room_)) {
+  PlantOptions plant = options_.plant.value_or(PlantOptions());
+  const double dt = scenario.document().at("time").at("dt").get<double>();
+  if (plant.clock == PlantOptions::Clock::arrival)
+    sampler_.emplace(
+        columns_,
+        SamplerLimits{.dt = dt, .hold = plant.hold, .room = room_, .last = limits_of(scenario, options_, room_).last});
+  plant_reader_.emplace(columns_, reader_, std::move(plant), dt);
 }
 
+double IngestFeed::now() const { return seconds(options_.clock ? options_.clock() : std::chrono::steady_clock::now()); }
+
 Json IngestFeed::to_json() const {
-  if (options_.further.empty() && options_.deadline == 1) return "ingest";
-  return {{"ingest", {{"deadline", options_.deadline}, {"columns", options_.further}}}};
+  if (options_.further.empty() && options_.deadline == 1 && !options_.plant) return "ingest";
+  Json json{{"ingest", {{"deadline", options_.deadline}, {"columns", options_.further}}}};
+  if (options_.plant) json["ingest"]["mqtt"] = options_.plant->to_json();
+  return json;
 }
 
 void IngestFeed::add_ticks(Json& answer) const {
-  answer["open"] = assembler_.open();
-  answer["closed"] = assembler_.closed();
+  answer["open"] = sampler_ ? sampler_->open() : assembler_.open();
+  answer["closed"] = sampler_ ? sampler_->closed() : assembler_.closed();
 }
 
 Json IngestFeed::take(std::string_view type, const std::string& body) {
   const std::vector<IngestRow> rows = reader_.read(type, body);
   const std::lock_guard lock(mutex_);
-  if (assembler_.ready() >= room_)
-    throw RunRefusal(RunRefusal::Kind::behind, "The run is behind: " + std::to_string(assembler_.ready()) +
+  Json answer = tally_json(put(rows, now()));
+  add_ticks(answer);
+  return answer;
+}
+
+Tally IngestFeed::take(const TopicPlace& place, const std::string& payload, Time at) {
+  const std::lock_guard lock(mutex_);
+  return put(plant_reader_->read(place, payload), sampler_ ? std::max(seconds(at), latest_) : now());
+}
+
+void IngestFeed::refused(const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  ++refused_;
+  reasons_.push_back(sentence);
+  if (reasons_.size() > kReasons) reasons_.pop_front();
+}
+
+/// mutex_ is held.
+Tally IngestFeed::put(const std::vector<IngestRow>& rows, double now) {
+  latest_ = std::max(latest_, now);
+  const std::size_t waiting = sampler_ ? sampler_->ready() : assembler_.ready();
+  if (sampler_ ? !sampler_->advance(now) : waiting >= room_)
+    throw RunRefusal(RunRefusal::Kind::behind, "The run is behind: " + std::to_string(waiting) +
                                                    " ticks wait for it. Nothing was taken; send the same again later.");
-  const Tally tally = assembler_.take(rows, now());
+  const Tally tally = sampler_ ? sampler_->take(rows, now) : assembler_.take(rows, now);
   total_.accepted += tally.accepted;
   total_.duplicate += tally.duplicate;
   total_.late += tally.late;
   total_.beyond += tally.beyond;
-  Json answer = tally_json(tally);
-  add_ticks(answer);
-  return answer;
+  return tally;
 }
 
 Json IngestFeed::status() const {
@@ -119,8 +149,11 @@ Json IngestFeed::status() const {
   answer["columns"] = columns_.names;
   answer["nodes"] = columns_.nodes;
   answer["deadline"] = options_.deadline;
-  answer["waiting"] = assembler_.ready();
+  answer["waiting"] = sampler_ ? sampler_->ready() : assembler_.ready();
   answer["room"] = room_;
+  if (!options_.plant) return answer;
+  answer["mqtt"] = options_.plant->to_json();
+  answer["refused"] = {{"messages", refused_}, {"newest", reasons_}};
   return answer;
 }
 
@@ -128,9 +161,13 @@ bool IngestFeed::next() {
   std::vector<double> cells;
   {
     const std::lock_guard lock(mutex_);
-    assembler_.expire(now());
-    if (assembler_.ready() == 0) return false;
-    cells = assembler_.pop();
+    if (sampler_) {
+      sampler_->advance(now());
+    } else {
+      assembler_.expire(now());
+    }
+    if ((sampler_ ? sampler_->ready() : assembler_.ready()) == 0) return false;
+    cells = sampler_ ? sampler_->pop() : assembler_.pop();
   }
   trace_->append(cells);
   return true;
@@ -138,9 +175,9 @@ bool IngestFeed::next() {
 
 std::optional<IngestFeed::Time> IngestFeed::due() const {
   const std::lock_guard lock(mutex_);
-  const auto seconds = assembler_.due();
-  if (!seconds) return std::nullopt;
-  return start_ + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(*seconds)) +
+  const auto due = sampler_ ? sampler_->due() : assembler_.due();
+  if (!due) return std::nullopt;
+  return start_ + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(*due)) +
          std::chrono::microseconds(1);
 }
 

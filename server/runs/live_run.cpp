@@ -13,19 +13,21 @@ RunRefusal is_over() { return {RunRefusal::Kind::state, "The run is over: it can
 
 }  // namespace
 
-LiveRun::LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, Webhooks& webhooks,
+LiveRun::LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, Webhooks& webhooks, Announcer* announcer,
                  std::function<void(RunId)> ended)
     : id_(id),
       order_(std::move(order)),
       log_(log),
       hub_(hub),
       webhooks_(webhooks),
+      announcer_(announcer),
       ended_call_(std::move(ended)),
       run_(std::move(run)),
-      sink_(id, log, hub, webhooks),
+      sink_(id, log, hub, webhooks, announcer),
       pace_(order_.pace),
       over_(ended_.get_future().share()) {
   const Json& document = order_.scenario.document();
+  for (const auto& [lane, value] : document.at("lanes").items()) lanes_.push_back(lane);
   design_ = run_.design();
   world_ = run_.world();
   log_.set_signals(id_, run_.catalogue(), log_selection(document, run_.catalogue()), log_policy(document, pace_),

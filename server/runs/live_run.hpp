@@ -42,8 +42,8 @@ struct RunStatus {
 
 class LiveRun {
  public:
-  /// `ended` is called once, at the end of the run's thread.
-  LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, Webhooks& webhooks,
+  /// `announcer`: null for none. `ended` is called once, at the end of the run's thread.
+  LiveRun(RunId id, RunOrder order, Run run, LogWriter& log, Hub& hub, Webhooks& webhooks, Announcer* announcer,
           std::function<void(RunId)> ended);
   ~LiveRun();  ///< stops
   LiveRun(const LiveRun&) = delete;
@@ -104,6 +104,8 @@ class LiveRun {
   LogWriter& log_;
   Hub& hub_;
   Webhooks& webhooks_;
+  Announcer* const announcer_;
+  std::vector<std::string> lanes_;
   const std::function<void(RunId)> ended_call_;
 
   // Touched by the run's thread alone once it was started; before that under mutex_.

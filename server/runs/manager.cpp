@@ -65,7 +65,7 @@ CreatedRun RunManager::create(RunOrder order) {
 }
 
 void RunManager::begin(RunId id, RunOrder order, Run run) {
-  auto live = std::make_shared<LiveRun>(id, std::move(order), std::move(run), log_, hub_, webhooks_,
+  auto live = std::make_shared<LiveRun>(id, std::move(order), std::move(run), log_, hub_, webhooks_, options_.announcer,
                                         [this](RunId over) { ended(over); });
   const std::lock_guard lock(mutex_);
   runs_[id] = live;
@@ -104,6 +104,18 @@ std::shared_ptr<LiveRun> RunManager::find(RunId id) const {
   return place == runs_.end() ? nullptr : place->second;
 }
 
+std::vector<std::shared_ptr<LiveRun>> RunManager::fed(const std::string& name) const {
+  std::vector<std::shared_ptr<LiveRun>> fed;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, run] : runs_) {
+    const auto& feed = run->order().feed;
+    if (!feed) continue;
+    const bool named = feed->plant() && (name.empty() || feed->plant()->name == name);
+    if (named || std::to_string(id) == name) fed.push_back(run);
+  }
+  return fed;
+}
+
 void RunManager::remove(RunId id) {
   stop_designing(id, "stopped");
   if (const auto live = find(id)) {
@@ -118,6 +130,7 @@ void RunManager::remove(RunId id) {
   note["id"] = std::to_string(id);
   note["state"] = "deleted";
   hub_.publish("run", note);
+  if (options_.announcer != nullptr) options_.announcer->forget(id);
 }
 
 std::shared_ptr<const Trace> RunManager::trace(std::int64_t id) {

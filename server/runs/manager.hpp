@@ -29,6 +29,7 @@ struct ManagerOptions {
   std::size_t max_queue = 64;  ///< runs that wait; each holds its state in memory
   DesignerOptions design;
   WebhookOptions webhooks;
+  Announcer* announcer = nullptr;  ///< outlives the manager; null: none
 };
 
 class RunManager {
@@ -46,6 +47,8 @@ class RunManager {
   /// or the server is stopping). A key that is known gives the run it made, not fresh.
   CreatedRun create(RunOrder order);
   std::shared_ptr<LiveRun> find(RunId id) const;  ///< null: over, designing, or never was
+  /// Live runs that are fed and have this id, or this name in their plant's topics; "": all that have one.
+  std::vector<std::shared_ptr<LiveRun>> fed(const std::string& name) const;
   /// Ends a run that is designing; false where it is not.
   bool stop_designing(RunId id, const std::string& state);
   /// What a run that is designing waits for; empty for all others.

@@ -185,13 +185,10 @@ void RunManager::end_waiting(RunId id, const Waiting& waiting, const std::string
 
 void RunManager::announce(RunId id, const RunOrder& order, const std::string& state) {
   const Json& steps = order.scenario.document().at("time").at("steps");
-  hub_.publish("run", {{"id", std::to_string(id)},
-                       {"scenario", order.scenario.id()},
-                       {"state", state},
-                       {"k", -1},
-                       {"t", 0},
-                       {"steps", steps},
-                       {"ticks_per_second", nullptr}});
+  const Json note{{"id", std::to_string(id)}, {"scenario", order.scenario.id()}, {"state", state}, {"k", -1}, {"t", 0},
+                  {"steps", steps},           {"ticks_per_second", nullptr}};
+  hub_.publish("run", note);
+  if (options_.announcer != nullptr) options_.announcer->state(id, note, {});
 }
 
 }  // namespace vigil

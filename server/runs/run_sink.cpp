@@ -17,6 +17,7 @@ void RunSink::mark(const Mark& mark) {
   hub_.mark(run_, mark);
   if (mark.type != MarkType::alarm) return;
   webhooks_.send(run_, mark);
+  if (announcer_ != nullptr) announcer_->alarm(run_, mark);
   Json alarm = to_json(mark);
   alarm["run"] = std::to_string(run_);
   hub_.publish("alarm", alarm);

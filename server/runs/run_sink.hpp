@@ -2,6 +2,7 @@
 #pragma once
 
 #include "db/writer.hpp"
+#include "server/alarms/announcer.hpp"
 #include "server/hub/hub.hpp"
 #include "server/webhook/webhooks.hpp"
 
@@ -10,8 +11,9 @@ namespace vigil {
 /// Used by the run's own thread alone.
 class RunSink : public Sink {
  public:
-  RunSink(RunId run, LogWriter& log, Hub& hub, Webhooks& webhooks)
-      : run_(run), log_(log), hub_(hub), webhooks_(webhooks) {}
+  /// `announcer`: null for none.
+  RunSink(RunId run, LogWriter& log, Hub& hub, Webhooks& webhooks, Announcer* announcer)
+      : run_(run), log_(log), hub_(hub), webhooks_(webhooks), announcer_(announcer) {}
   void frame(const Frame& frame) override;
   void mark(const Mark& mark) override;
   double time() const { return time_; }  ///< s, of the newest frame
@@ -21,6 +23,7 @@ class RunSink : public Sink {
   LogWriter& log_;
   Hub& hub_;
   Webhooks& webhooks_;
+  Announcer* announcer_;
   double time_ = 0;
 };
 

@@ -229,6 +229,7 @@ void LiveRun::announce(const RunStatus& status) {
   note["steps"] = run_.steps() ? Json(*run_.steps()) : Json();
   note["ticks_per_second"] = status.ticks_per_second ? Json(*status.ticks_per_second) : Json();
   hub_.publish("run", note);
+  if (announcer_ != nullptr) announcer_->state(id_, note, lanes_);
 }
 
 bool LiveRun::every_lane_stopped() const {
