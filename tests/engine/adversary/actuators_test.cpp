@@ -3,7 +3,7 @@
 
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::actuators_test {
 namespace {
 
 using test::replay_scenario;
@@ -92,4 +92,4 @@ TEST(Actuators, AreRefusedWhereThereAreNone) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::actuators_test

@@ -6,7 +6,7 @@
 
 #include "engine/adversary/attack.hpp"
 
-namespace vigil {
+namespace vigil::attacks_test {
 namespace {
 
 constexpr int kLinks = 20, kTicks = 4000;
@@ -226,4 +226,4 @@ TEST(DosFdi, TakesTheRoundedBound) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::attacks_test

@@ -4,7 +4,7 @@
 #include "engine/linalg/chi_square.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::insider_test {
 namespace {
 
 /// Two states that decay, two nodes that see both, everybody by himself.
@@ -147,4 +147,4 @@ TEST(Dos, OfOneChannelLeavesTheOther) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::insider_test

@@ -8,7 +8,7 @@
 #include "engine/adversary/attack.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::radar_fdi_test {
 namespace {
 
 constexpr int kNodes = 5, kChannels = 6;
@@ -244,4 +244,4 @@ TEST(RadarFdi, IsRefusedOnChannelsAndLinks) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::radar_fdi_test

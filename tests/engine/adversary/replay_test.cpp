@@ -1,7 +1,7 @@
 /// When a replay acts, what it plays, and what it refuses.
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::replay_test {
 namespace {
 
 using test::replay_scenario;
@@ -153,4 +153,4 @@ TEST(Replay, NamesThePlaceThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::shapes_test {
 namespace {
 
 struct Told {
@@ -135,4 +135,4 @@ TEST(Schedule, IsChecked) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::shapes_test

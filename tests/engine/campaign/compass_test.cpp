@@ -1,7 +1,7 @@
 /// Where the theorem's conditions hold: profile `compass`. Section 12 and section 10.
 #include "tests/engine/campaign/section12.hpp"
 
-namespace vigil {
+namespace vigil::compass_test {
 namespace {
 
 using section12::expect_agrees;
@@ -61,4 +61,4 @@ TEST(Compass, BoundBounds) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::compass_test

@@ -8,7 +8,7 @@
 #include "engine/metrics/bound_ratio.hpp"
 #include "engine/run/campaign.hpp"
 
-namespace vigil {
+namespace vigil::merge_test {
 namespace {
 
 std::string merged(const std::vector<TrialResult>& trials) {
@@ -160,4 +160,4 @@ TEST(BoundRatio, TakesRunsOfDifferentLengths) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::merge_test

@@ -6,7 +6,7 @@
 #include "tests/engine/campaign/section12.hpp"
 #include "tests/engine/runs/privacy_rig.hpp"
 
-namespace vigil {
+namespace vigil::privacy_tables_test {
 namespace {
 
 using section12::Results;
@@ -164,4 +164,4 @@ TEST(PrivacyTables, TwoStepLosesWhatItsViewsSay) { expect_losses("engine", "two_
 TEST(PrivacyTables, DifferentialPrivacyLosesWhatItsViewsSay) { expect_losses("turn", "dp_uniform", 5); }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::privacy_tables_test

@@ -1,7 +1,7 @@
 /// Estimation errors: specification (replay), sections 4, 8.1, 8.2 and 9. From attack-free twins, ticks 20 to 300.
 #include "tests/engine/campaign/replay_tables.hpp"
 
-namespace vigil {
+namespace vigil::replay_errors_test {
 namespace {
 
 using replay_tables::Campaign;
@@ -159,4 +159,4 @@ TEST(Replay9, EveryEstimatorFollowsTheReplay) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_errors_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/campaign/replay_tables.hpp"
 
-namespace vigil {
+namespace vigil::replay_rates_test {
 namespace {
 
 using replay_tables::agrees;
@@ -162,4 +162,4 @@ TEST(Replay73, FixedThresholdsOnTheMonitorsPath) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_rates_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/campaign/replay_tables.hpp"
 
-namespace vigil {
+namespace vigil::replay_sets_test {
 namespace {
 
 using replay_tables::Campaign;
@@ -109,4 +109,4 @@ TEST(BlindDetector, IsNoMonitor) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_sets_test

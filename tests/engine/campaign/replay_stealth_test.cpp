@@ -5,7 +5,7 @@
 #include "tests/engine/campaign/replay_tables.hpp"
 #include "tests/engine/runs/plain_tank.hpp"
 
-namespace vigil {
+namespace vigil::replay_stealth_test {
 namespace {
 
 using replay_tables::Campaign;
@@ -175,4 +175,4 @@ TEST(Watermark, OfTheInputCostsControl) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_stealth_test

@@ -6,7 +6,7 @@
 #include "engine/metrics/paired_law.hpp"
 #include "engine/run/campaign.hpp"
 
-namespace vigil {
+namespace vigil::save_test {
 namespace {
 
 std::string everything(const CampaignTable& table) {
@@ -126,4 +126,4 @@ TEST(Statistics, LanesArePairedTrialByTrial) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::save_test

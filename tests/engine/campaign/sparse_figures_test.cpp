@@ -3,7 +3,7 @@
 #include "engine/run/run.hpp"
 #include "tests/engine/campaign/sparse_section13.hpp"
 
-namespace vigil {
+namespace vigil::sparse_figures_test {
 namespace {
 
 using namespace section13;
@@ -118,4 +118,4 @@ TEST(Section13, WhomNodesChoose) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::sparse_figures_test

@@ -2,7 +2,7 @@
 /// errors; reduced runs (VIGIL_FULL not set) have the wider ones that belong to them.
 #include "tests/engine/campaign/sparse_section13.hpp"
 
-namespace vigil {
+namespace vigil::sparse_tables_test {
 namespace {
 
 using namespace section13;
@@ -181,4 +181,4 @@ TEST(Section13, WithoutAttack) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::sparse_tables_test

@@ -6,7 +6,7 @@
 
 #include "tests/engine/campaign/section12.hpp"
 
-namespace vigil {
+namespace vigil::tables_test {
 namespace {
 
 using section12::expect_agrees;
@@ -185,4 +185,4 @@ TEST(Section12, TheLiteralReadingTracksNothing) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::tables_test

@@ -7,7 +7,7 @@
 #include "engine/run/campaign.hpp"
 #include "engine/run/trace.hpp"
 
-namespace vigil {
+namespace vigil::trial_bytes_test {
 namespace {
 
 std::string everything(const CampaignTable& table) {
@@ -111,4 +111,4 @@ TEST(TraceBytes, KeepEveryBit) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::trial_bytes_test

@@ -6,7 +6,7 @@
 
 #include "engine/core/input_error.hpp"
 
-namespace vigil {
+namespace vigil::describe_test {
 namespace {
 
 TEST(InputError, SaysFieldAndHowManyMore) {
@@ -50,4 +50,4 @@ TEST(Describe, KnowsUtf8) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::describe_test

@@ -10,7 +10,7 @@
 #include "engine/methods/equation.hpp"
 #include "engine/methods/words.hpp"
 
-namespace vigil {
+namespace vigil::mathml_test {
 namespace {
 
 std::string inside(const std::string& tex) {
@@ -96,4 +96,4 @@ TEST(Equations, AreThereForEveryMethodInTheOrderOfItsSource) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::mathml_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vigil {
+namespace vigil::params_test {
 namespace {
 
 const ParamTable& table() {
@@ -179,4 +179,4 @@ TEST(ParamJson, ListsTheDeclaration) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::params_test

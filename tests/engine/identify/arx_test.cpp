@@ -8,7 +8,7 @@
 #include "engine/identify/state_space.hpp"
 #include "tests/engine/identify/systems.hpp"
 
-namespace vigil::identify {
+namespace vigil::identify::arx_test {
 namespace {
 
 using test::recorded;
@@ -138,4 +138,4 @@ TEST(StateSpace, SaysWhatTheModelSays) {
 }
 
 }  // namespace
-}  // namespace vigil::identify
+}  // namespace vigil::identify::arx_test

@@ -8,7 +8,7 @@
 #include "engine/identify/identify.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil::identify {
+namespace vigil::identify::batadal_test {
 namespace {
 
 std::filesystem::path folder() {
@@ -67,4 +67,4 @@ TEST(Batadal, FromTheCleanYearToTheAttackedHalfYear) {
 }
 
 }  // namespace
-}  // namespace vigil::identify
+}  // namespace vigil::identify::batadal_test

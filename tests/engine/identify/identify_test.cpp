@@ -7,7 +7,7 @@
 #include "tests/engine/identify/systems.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil::identify {
+namespace vigil::identify::identify_test {
 namespace {
 
 using test::two_tanks;
@@ -142,4 +142,4 @@ TEST(Mapping, RefusesByName) {
 }
 
 }  // namespace
-}  // namespace vigil::identify
+}  // namespace vigil::identify::identify_test

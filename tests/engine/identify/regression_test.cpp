@@ -5,7 +5,7 @@
 #include "engine/identify/whiteness.hpp"
 #include "engine/random/draws.hpp"
 
-namespace vigil::identify {
+namespace vigil::identify::regression_test {
 namespace {
 
 TEST(Regression, IsExactWhereTheDataAre) {
@@ -67,4 +67,4 @@ TEST(LjungBox, TellsWhiteFromColoured) {
 }
 
 }  // namespace
-}  // namespace vigil::identify
+}  // namespace vigil::identify::regression_test

@@ -4,7 +4,7 @@
 
 #include "engine/core/input_error.hpp"
 
-namespace vigil::identify {
+namespace vigil::identify::table_test {
 namespace {
 
 void expect_refused(std::string_view text, const std::vector<std::string>& columns, const std::string& words) {
@@ -53,4 +53,4 @@ TEST(Table, ChoosesByPattern) {
 }
 
 }  // namespace
-}  // namespace vigil::identify
+}  // namespace vigil::identify::table_test

@@ -8,7 +8,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/linalg/dictionaries.hpp"
 
-namespace vigil {
+namespace vigil::basis_pursuit_test {
 namespace {
 
 using dictionaries::Trial;
@@ -283,4 +283,4 @@ TEST(BasisPursuit, AllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::basis_pursuit_test

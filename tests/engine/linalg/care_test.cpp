@@ -7,7 +7,7 @@
 
 #include "tests/engine/linalg/random_matrices.hpp"
 
-namespace vigil {
+namespace vigil::care_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -84,4 +84,4 @@ TEST(ContinuousDetectability, AsksForModesThatDoNotDecayOnly) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::care_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vigil {
+namespace vigil::chi_square_test {
 namespace {
 
 struct Row {
@@ -58,4 +58,4 @@ TEST(ChiSquare, IsSilentOutside) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::chi_square_test

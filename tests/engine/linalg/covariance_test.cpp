@@ -6,7 +6,7 @@
 #include "engine/linalg/small.hpp"
 #include "engine/random/draws.hpp"
 
-namespace vigil {
+namespace vigil::covariance_test {
 namespace {
 
 Eigen::MatrixXd random_matrix(int rows, int columns, std::int64_t tick) {
@@ -79,4 +79,4 @@ TEST(Symmetrise, TakesTheMean) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::covariance_test

@@ -6,7 +6,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 
-namespace vigil {
+namespace vigil::ellipsoid_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -96,4 +96,4 @@ TEST(Ellipsoid, AddingBoundedMatricesAllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::ellipsoid_test

@@ -8,7 +8,7 @@
 
 #include "engine/linalg/riccati.hpp"
 
-namespace vigil {
+namespace vigil::modes_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -139,4 +139,4 @@ TEST(Visibility, OfRandomSystemsInMixedCoordinates) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::modes_test

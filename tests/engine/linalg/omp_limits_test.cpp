@@ -6,7 +6,7 @@
 #include "engine/linalg/omp.hpp"
 #include "tests/engine/linalg/dictionaries.hpp"
 
-namespace vigil {
+namespace vigil::omp_limits_test {
 namespace {
 
 using dictionaries::Trial;
@@ -125,4 +125,4 @@ TEST(OmpAtItsLimits, SaysSoWhereAnInputIsNotFiniteOrOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::omp_limits_test

@@ -7,7 +7,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/linalg/dictionaries.hpp"
 
-namespace vigil {
+namespace vigil::omp_test {
 namespace {
 
 using dictionaries::Trial;
@@ -193,4 +193,4 @@ TEST(Omp, AllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::omp_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/linalg/random_matrices.hpp"
 
-namespace vigil {
+namespace vigil::riccati_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -164,4 +164,4 @@ TEST(Riccati, SpectralRadiusOfARotationIsItsScale) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::riccati_test

@@ -9,7 +9,7 @@
 #include "engine/core/input_error.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 
-namespace vigil {
+namespace vigil::sdp_test {
 namespace {
 
 /// Entries on both sides of the diagonal, some twice, some that cancel.
@@ -126,4 +126,4 @@ TEST(SemidefiniteSolution, ComesBackEqualFromJson) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::sdp_test

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace vigil {
+namespace vigil::zero_order_hold_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -60,4 +60,4 @@ TEST(ZeroOrderHold, WithoutInputsAndBeyondEveryNumber) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::zero_order_hold_test

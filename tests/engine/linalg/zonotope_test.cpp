@@ -9,7 +9,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 
-namespace vigil {
+namespace vigil::zonotope_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -226,4 +226,4 @@ TEST(Zonotope, AVerdictInThePlaneAllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::zonotope_test

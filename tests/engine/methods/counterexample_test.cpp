@@ -5,7 +5,7 @@
 #include "tests/engine/methods/linear_plant.hpp"
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::counterexample_test {
 namespace {
 
 constexpr int kNodes = 8, kDegree = 7;
@@ -118,4 +118,4 @@ TEST(Multipliers, AreValidWhereTheyClaimToBe) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::counterexample_test

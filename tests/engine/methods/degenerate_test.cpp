@@ -3,7 +3,7 @@
 
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::degenerate_test {
 namespace {
 
 Knowledge default_knowledge(const char* graph = "ladder") {
@@ -227,4 +227,4 @@ TEST(Settings, ARefusedRetuneChangesNothing) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::degenerate_test

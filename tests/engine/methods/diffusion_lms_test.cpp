@@ -5,7 +5,7 @@
 #include "tests/engine/methods/linear_plant.hpp"
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::diffusion_lms_test {
 namespace {
 
 using Edges = std::vector<std::pair<int, int>>;
@@ -235,4 +235,4 @@ TEST(DiffusionLms, StopsWithItsNodeWhereItIsNoLongerFinite) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::diffusion_lms_test

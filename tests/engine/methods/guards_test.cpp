@@ -6,7 +6,7 @@
 #include "engine/methods/consensus/kernel.hpp"
 #include "engine/random/draws.hpp"
 
-namespace vigil {
+namespace vigil::guards_test {
 namespace {
 
 using consensus::Constants;
@@ -128,4 +128,4 @@ TEST(Kernel, SaysSoWhereNothingIsFinite) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::guards_test

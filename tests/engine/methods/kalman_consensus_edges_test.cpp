@@ -4,7 +4,7 @@
 
 #include "tests/engine/methods/linear_network.hpp"
 
-namespace vigil {
+namespace vigil::kalman_consensus_edges_test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -152,4 +152,4 @@ TEST(KalmanConsensus, StopsWithItsNodeWhereItIsNoLongerFinite) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::kalman_consensus_edges_test

@@ -4,7 +4,7 @@
 
 #include "tests/engine/methods/linear_network.hpp"
 
-namespace vigil {
+namespace vigil::kalman_consensus_test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -154,4 +154,4 @@ TEST(KalmanConsensus, WithEverybodyIsTheCentralizedFilter) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::kalman_consensus_test

@@ -7,7 +7,7 @@
 #include "tests/engine/methods/linear_plant.hpp"
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::kalman_test {
 namespace {
 
 Eigen::MatrixXd normal_matrix(int rows, int columns, std::int64_t tick) {
@@ -196,4 +196,4 @@ TEST(DeadReckoning, MayStandAtEveryNode) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::kalman_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::kernels_agree_test {
 namespace {
 
 struct Case {
@@ -63,4 +63,4 @@ TEST_P(Kernels, AgreeToTheLastDigits) {
 INSTANTIATE_TEST_SUITE_P(Consensus, Kernels, testing::Range(0, 5));
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::kernels_agree_test

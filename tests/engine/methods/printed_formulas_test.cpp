@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vigil {
+namespace vigil::printed_formulas_test {
 namespace {
 
 struct Case {
@@ -133,4 +133,4 @@ INSTANTIATE_TEST_SUITE_P(Consensus, OneStep,
                          name_of);
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::printed_formulas_test

@@ -8,7 +8,7 @@
 #include "engine/metrics/lane_score.hpp"
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::attack_score_test {
 namespace {
 
 constexpr int kChannels = 3, kWindow = 2;
@@ -200,4 +200,4 @@ TEST(MseFigures, NameAComponentOfThePlant) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::attack_score_test

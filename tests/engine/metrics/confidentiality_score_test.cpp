@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vigil {
+namespace vigil::confidentiality_score_test {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -37,4 +37,4 @@ TEST(SquareTally, WhatIsMissingIsNotCounted) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::confidentiality_score_test

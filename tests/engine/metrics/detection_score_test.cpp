@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace vigil {
+namespace vigil::detection_score_test {
 namespace {
 
 using Figures = std::map<std::string, double>;
@@ -112,4 +112,4 @@ TEST(DetectionScore, NamesItsNodeAndForksByCopy) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::detection_score_test

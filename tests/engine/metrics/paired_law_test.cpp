@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vigil {
+namespace vigil::paired_law_test {
 namespace {
 
 // One and two degrees of freedom have closed forms, and so have their quantiles; four has a closed distribution.
@@ -73,4 +73,4 @@ TEST(SignedRanks, BecomeNormalWhereTheyAreMany) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::paired_law_test

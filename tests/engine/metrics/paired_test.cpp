@@ -6,7 +6,7 @@
 
 #include "engine/metrics/paired_law.hpp"
 
-namespace vigil {
+namespace vigil::paired_test {
 namespace {
 
 const double kNan = std::nan("");
@@ -87,4 +87,4 @@ TEST(PairedInTime, OfEqualSeriesIsZeroAndSure) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::paired_test

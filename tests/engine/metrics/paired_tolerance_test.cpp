@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace vigil {
+namespace vigil::paired_tolerance_test {
 namespace {
 
 const double kNan = std::nan("");
@@ -122,4 +122,4 @@ TEST(Tolerance, IsItsDefinitionOnRandomSeries) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::paired_tolerance_test

@@ -7,7 +7,7 @@
 
 #include "engine/run/campaign.hpp"
 
-namespace vigil {
+namespace vigil::roc_test {
 namespace {
 
 std::string bytes(const RocCounts& counts) {
@@ -113,4 +113,4 @@ TEST(Roc, ACampaignsCurvePassesThroughTheDetectorsOwnRates) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::roc_test

@@ -6,7 +6,7 @@
 #include "engine/metrics/lane_score.hpp"
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::score_test {
 namespace {
 
 std::shared_ptr<const Plant> robot() {
@@ -108,4 +108,4 @@ TEST(LaneScore, CountsOnlyItsWindow) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::score_test

@@ -8,7 +8,7 @@
 
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::state_score_test {
 namespace {
 
 std::map<std::string, double> figures(const StateScore& score, const std::string& suffix = "") {
@@ -65,4 +65,4 @@ TEST(StateScore, TurnsAnglesTheShortWay) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::state_score_test

@@ -3,7 +3,7 @@
 
 #include "engine/run/run.hpp"
 
-namespace vigil {
+namespace vigil::window_test {
 namespace {
 
 class KeepErrors final : public Sink {
@@ -33,4 +33,4 @@ TEST(MetricsWindow, ScoresOnlyItsTicks) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::window_test

@@ -11,7 +11,7 @@
 #include "engine/linalg/chi_square.hpp"
 #include "engine/random/draws.hpp"
 
-namespace vigil {
+namespace vigil::laws_test {
 namespace {
 
 constexpr int kDraws = 100'000;
@@ -179,4 +179,4 @@ TEST(Draws, NeighboursAreUncorrelated) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::laws_test

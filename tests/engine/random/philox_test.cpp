@@ -6,7 +6,7 @@
 
 #include "engine/random/draws.hpp"
 
-namespace vigil {
+namespace vigil::philox_test {
 namespace {
 
 // Known answers of the generator's authors (Random123, philox4x32 with 10 rounds).
@@ -55,4 +55,4 @@ TEST(Draws, GiveAVectorTheNumbersOfItsEntries) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::philox_test

@@ -9,7 +9,7 @@
 #include "engine/run/design.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::compatibility_test {
 namespace {
 
 constexpr int kTicks = 20;
@@ -123,4 +123,4 @@ TEST(CompatibilityTable, NeedsTheTraceThatTheScenarioNeeds) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::compatibility_test

@@ -7,7 +7,7 @@
 #include "engine/run/design.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::walk_test {
 namespace {
 
 struct World {
@@ -159,4 +159,4 @@ TEST(UserPlants, OneTwoAndTwelveNodes) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::walk_test

@@ -10,7 +10,7 @@
 #include "engine/run/frame_csv.hpp"
 #include "engine/run/trace.hpp"
 
-namespace vigil {
+namespace vigil::frame_test {
 namespace {
 
 TEST(Catalogue, NumbersSignalsInOrder) {
@@ -103,4 +103,4 @@ TEST(FrameCsv, ReadsBackToTheSameBits) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::frame_test

@@ -4,7 +4,7 @@
 #include "tests/engine/scenario/mutate.hpp"
 #include "tests/fuzz/cases.hpp"
 
-namespace vigil {
+namespace vigil::run_mutation_test {
 namespace {
 
 TEST(RunMutations, OfDocumentsRunOrAreRefused) {
@@ -82,4 +82,4 @@ TEST(RunMutations, OfTracesRunOrAreRefused) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::run_mutation_test

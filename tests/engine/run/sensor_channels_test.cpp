@@ -7,7 +7,7 @@
 
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::sensor_channels_test {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
@@ -182,4 +182,4 @@ TEST_F(Channels, AMissingReadingIsReplacedByWhatIsPlayed) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::sensor_channels_test

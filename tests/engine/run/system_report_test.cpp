@@ -9,7 +9,7 @@
 #include "tests/engine/runs/capture.hpp"
 #include "tests/engine/scenario/mutate.hpp"
 
-namespace vigil {
+namespace vigil::system_report_test {
 namespace {
 
 Json node(const Json& C, const Json& R = 0.1) {
@@ -270,4 +270,4 @@ TEST(SystemReport, OfSixtyFourStates) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::system_report_test

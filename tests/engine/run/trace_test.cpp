@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vigil {
+namespace vigil::trace_test {
 namespace {
 
 TEST(Trace, ReadsAFrameFile) {
@@ -100,4 +100,4 @@ TEST(Trace, ReadsALongFile) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::trace_test

@@ -4,7 +4,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::allocation_test {
 namespace {
 
 #ifdef VIGIL_COUNTS_MALLOC
@@ -89,4 +89,4 @@ TEST(TickAllocations, AreCountedWithoutSanitizersOnly) { GTEST_SKIP() << "a sani
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::allocation_test

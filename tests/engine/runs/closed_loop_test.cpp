@@ -3,7 +3,7 @@
 #include "tests/engine/runs/plain_tank.hpp"
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::closed_loop_test {
 namespace {
 
 using test::kReplayPresets;
@@ -194,4 +194,4 @@ TEST(Monitor, KeepsItsEstimatorUnharmed) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::closed_loop_test

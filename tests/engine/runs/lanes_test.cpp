@@ -4,7 +4,7 @@
 #include "engine/linalg/chi_square.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::lanes_test {
 namespace {
 
 using test::Capture;
@@ -239,4 +239,4 @@ TEST(Metrics, IntervalsBelongToWhatTheyJudge) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::lanes_test

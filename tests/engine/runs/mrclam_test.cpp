@@ -9,7 +9,7 @@
 
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::mrclam_test {
 namespace {
 
 MrclamFiles small() {
@@ -82,4 +82,4 @@ TEST(Mrclam, TheRealRobot) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::mrclam_test

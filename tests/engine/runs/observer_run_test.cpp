@@ -5,7 +5,7 @@
 #include "tests/engine/methods/observer/networks.hpp"
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::observer_run_test {
 namespace {
 
 using test::Told;
@@ -252,4 +252,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& of) { return of.param.name; });
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::observer_run_test

@@ -4,7 +4,7 @@
 
 #include "tests/engine/runs/privacy_rig.hpp"
 
-namespace vigil {
+namespace vigil::privacy_run_test {
 namespace {
 
 using test::expect_same;
@@ -273,4 +273,4 @@ TEST(PrivacyRun, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::privacy_run_test

@@ -2,7 +2,7 @@
 #include "engine/run/pushed_columns.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::pushed_test {
 namespace {
 
 using test::Capture;
@@ -135,4 +135,4 @@ TEST(GrowingTrace, RemembersItsNewestRows) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::pushed_test

@@ -2,7 +2,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::replay_allocation_test {
 namespace {
 
 #ifdef VIGIL_COUNTS_MALLOC
@@ -55,4 +55,4 @@ TEST(ReplayAllocations, AreCountedWithoutSanitizersOnly) { GTEST_SKIP() << "a sa
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_allocation_test

@@ -2,7 +2,7 @@
 #include "engine/run/sensor_channels.hpp"
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::replay_fork_test {
 namespace {
 
 using test::Capture;
@@ -134,4 +134,4 @@ TEST(HandReplay, TakesAScheduleOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_fork_test

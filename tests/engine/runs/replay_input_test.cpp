@@ -2,7 +2,7 @@
 /// its value and what was expected.
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::replay_input_test {
 namespace {
 
 using test::kReplayPresets;
@@ -250,4 +250,4 @@ TEST(ReplayInput, TakesAUsersOwnPlantWithBoundedNoise) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_input_test

@@ -6,7 +6,7 @@
 
 #include "tests/engine/runs/replay_rig.hpp"
 
-namespace vigil {
+namespace vigil::replay_trace_test {
 namespace {
 
 using test::Capture;
@@ -159,4 +159,4 @@ TEST(ReplayTrace, CarriesItsAttackToLanesThatMark) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::replay_trace_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::run_test {
 namespace {
 
 using test::Capture;
@@ -249,4 +249,4 @@ TEST(RunMetrics, AreThoseOfTheFrames) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::run_test

@@ -1,7 +1,7 @@
 // A trace in place of the world: the law of the contract, lanes computed elsewhere, refusals.
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::traces_test {
 namespace {
 
 using test::Capture;
@@ -82,4 +82,4 @@ TEST(TraceInput, IsRefusedWithAReason) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::traces_test

@@ -7,7 +7,7 @@
 #include "engine/run/design.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::examples_test {
 namespace {
 
 TEST(Documentation, ScenarioExamplesRun) {
@@ -36,4 +36,4 @@ TEST(Documentation, ScenarioExamplesRun) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::examples_test

@@ -12,7 +12,7 @@
 #include "engine/methods/words.hpp"
 #include "engine/scenario/methods_markdown.hpp"
 
-namespace vigil {
+namespace vigil::methods_page_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ TEST(Documentation, MethodPagesFollowTheCode) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::methods_page_test

@@ -5,7 +5,7 @@
 #include "tests/engine/scenario/mutate.hpp"
 #include "tests/fuzz/cases.hpp"
 
-namespace vigil {
+namespace vigil::mutation_test {
 namespace {
 
 TEST(Mutations, OfDocumentsAreAcceptedOrRefused) {
@@ -78,4 +78,4 @@ TEST(Mutations, OfTracesAreAcceptedOrRefused) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::mutation_test

@@ -6,7 +6,7 @@
 
 #include "engine/scenario/scenario.hpp"
 
-namespace vigil {
+namespace vigil::problems_test {
 namespace {
 
 struct Bad {
@@ -215,4 +215,4 @@ TEST(Document, BoundsItsCollections) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::problems_test

@@ -6,7 +6,7 @@
 
 #include "engine/scenario/document.hpp"
 
-namespace vigil {
+namespace vigil::scenario_test {
 namespace {
 
 std::vector<std::string> keys(const Json& object) {
@@ -295,4 +295,4 @@ TEST(CompleteAttack, LeavesLinksOpenWhereTheGraphIsNotKnownYet) {
 TEST(Version, IsGiven) { EXPECT_FALSE(version().empty()); }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::scenario_test

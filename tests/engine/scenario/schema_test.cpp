@@ -12,7 +12,7 @@
 #include "tests/engine/scenario/small_schema.hpp"
 #include "tests/fuzz/cases.hpp"
 
-namespace vigil {
+namespace vigil::schema_test {
 namespace {
 
 TEST(Schema, AcceptsEveryPreset) {
@@ -140,4 +140,4 @@ TEST(Documentation, CompatibilityPageFollowsTheCode) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::schema_test

@@ -4,7 +4,7 @@
 #include "engine/scenario/document.hpp"
 #include "engine/scenario/scenario.hpp"
 
-namespace vigil {
+namespace vigil::sparse_test {
 namespace {
 
 struct Bad {
@@ -95,4 +95,4 @@ TEST(Sparse, TakesOneNodeAndAnyNumberOfThem) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::sparse_test

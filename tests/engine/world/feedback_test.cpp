@@ -7,7 +7,7 @@
 #include "tests/engine/methods/rig.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::feedback_test {
 namespace {
 
 std::shared_ptr<const Plant> plant_of(const Json& A, const Json& B) {
@@ -123,4 +123,4 @@ TEST(Feedback, WrongSizesAreRefused) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::feedback_test

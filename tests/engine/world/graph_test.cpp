@@ -4,7 +4,7 @@
 
 #include "engine/core/input_error.hpp"
 
-namespace vigil {
+namespace vigil::graph_test {
 namespace {
 
 /// The eight cameras of seed 000, in `unit` of metres.
@@ -118,4 +118,4 @@ TEST(Graph, RefusesNamesThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::graph_test

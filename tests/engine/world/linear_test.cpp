@@ -9,7 +9,7 @@
 #include "tests/engine/methods/rig.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::linear_test {
 namespace {
 
 const Json kA{{0, 1}, {-4, -0.4}}, kB{{0}, {1}};
@@ -82,4 +82,4 @@ TEST(LinearPlant, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::linear_test

@@ -9,7 +9,7 @@
 #include "tests/engine/methods/replay/tank.hpp"
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::lqg_test {
 namespace {
 
 std::shared_ptr<const Plant> plant_of(const Json& A, const Json& B) {
@@ -131,4 +131,4 @@ TEST(Lqg, RefusesWhatItCannotStabilise) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::lqg_test

@@ -10,7 +10,7 @@
 #include "engine/world/sensor.hpp"
 #include "tests/engine/world/differences.hpp"
 
-namespace vigil {
+namespace vigil::models_test {
 namespace {
 
 template <class Make>
@@ -179,4 +179,4 @@ TEST(Models, RefuseWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::models_test

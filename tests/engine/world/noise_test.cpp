@@ -10,7 +10,7 @@
 #include <functional>
 #include <numbers>
 
-namespace vigil {
+namespace vigil::noise_test {
 namespace {
 
 constexpr int kDraws = 200'000;
@@ -292,4 +292,4 @@ TEST(Noise, OfNothingIsZero) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::noise_test

@@ -13,7 +13,7 @@
 #include "engine/world/sensor.hpp"
 #include "tests/engine/world/differences.hpp"
 
-namespace vigil {
+namespace vigil::radar_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -237,4 +237,4 @@ TEST(Station, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::radar_test

@@ -6,7 +6,7 @@
 #include "engine/random/draws.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::detectors_test {
 namespace {
 
 constexpr int kTicks = 20000;
@@ -193,4 +193,4 @@ TEST(Detectors, RefuseWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::detectors_test

@@ -9,7 +9,7 @@
 #include "engine/linalg/care.hpp"
 #include "tests/engine/methods/observer/networks.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::augment_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -164,4 +164,4 @@ TEST(PrintedGains, AreOftenUnstableWithinTheirRounding) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::augment_test

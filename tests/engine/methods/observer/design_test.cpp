@@ -5,7 +5,7 @@
 #include "engine/methods/observer/matched.hpp"
 #include "tests/engine/methods/observer/letters.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::design_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -158,4 +158,4 @@ TEST(TheMatchedObserver, ExistsWhereTheOutputsSeeTheAttackAtOnce) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::design_test

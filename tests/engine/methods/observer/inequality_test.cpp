@@ -5,7 +5,7 @@
 
 #include "tests/engine/methods/observer/letters.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::inequality_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -78,4 +78,4 @@ TEST(TheInequality, PricesWhatItsPresetSays) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::inequality_test

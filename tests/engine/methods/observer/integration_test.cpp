@@ -7,7 +7,7 @@
 #include "engine/world/interconnected/examples.hpp"
 #include "engine/world/interconnected/rk4.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::integration_test {
 namespace {
 
 using std::numbers::pi;
@@ -89,4 +89,4 @@ TEST(TheExamples, HaveThePapersSignals) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::integration_test

@@ -4,7 +4,7 @@
 #include "engine/methods/observer/fallback.hpp"
 #include "tests/engine/methods/observer/networks.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::properties_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -113,4 +113,4 @@ TEST(TheFallback, DoesNotDependOnVarsigmaAndMu) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::properties_test

@@ -8,7 +8,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/methods/observer/networks.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::simulation_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -252,4 +252,4 @@ TEST(ANonlinearity, KeepsItsConstantOverAllEntries) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::simulation_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vigil::privacy {
+namespace vigil::privacy::confidentiality_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -51,4 +51,4 @@ TEST(Confidentiality, IsShownAsItIs) {
 }
 
 }  // namespace
-}  // namespace vigil::privacy
+}  // namespace vigil::privacy::confidentiality_test

@@ -10,7 +10,7 @@
 #include "engine/methods/privacy/null_space.hpp"
 #include "engine/random/draws.hpp"
 
-namespace vigil::privacy {
+namespace vigil::privacy::contamination_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -251,4 +251,4 @@ TEST(PrivacyContamination, AHundredRunsAgreeWithTheCovariances) {
 }
 
 }  // namespace
-}  // namespace vigil::privacy
+}  // namespace vigil::privacy::contamination_test

@@ -10,7 +10,7 @@
 #include "engine/methods/privacy/gaussian_mechanism.hpp"
 #include "engine/random/draws.hpp"
 
-namespace vigil::privacy {
+namespace vigil::privacy::dp_fusion_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -186,4 +186,4 @@ TEST(PrivacyDp, RefusesSettingsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace vigil::privacy
+}  // namespace vigil::privacy::dp_fusion_test

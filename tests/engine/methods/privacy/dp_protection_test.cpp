@@ -7,7 +7,7 @@
 #include "tests/engine/methods/privacy/loss_rig.hpp"
 #include "tests/engine/methods/privacy/protection_rig.hpp"
 
-namespace vigil {
+namespace vigil::dp_protection_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -224,4 +224,4 @@ TEST(DpProtection, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::dp_protection_test

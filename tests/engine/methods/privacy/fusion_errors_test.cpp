@@ -5,7 +5,7 @@
 #include "engine/methods/privacy/lmv_fusion.hpp"
 #include "tests/engine/methods/privacy/fusion_rig.hpp"
 
-namespace vigil {
+namespace vigil::fusion_errors_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -167,4 +167,4 @@ TEST(FusionErrors, TheNonlinearRobot) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::fusion_errors_test

@@ -7,7 +7,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/methods/privacy/fusion_rig.hpp"
 
-namespace vigil {
+namespace vigil::fusion_lane_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -181,4 +181,4 @@ TEST(FusionLane, ASettledTickAllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::fusion_lane_test

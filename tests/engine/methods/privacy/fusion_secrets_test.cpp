@@ -5,7 +5,7 @@
 #include "engine/methods/privacy/eavesdroppers.hpp"
 #include "tests/engine/methods/privacy/fusion_rig.hpp"
 
-namespace vigil {
+namespace vigil::fusion_secrets_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -265,4 +265,4 @@ TEST(FusionSecrets, AnEstimateThatIsNoNumberStopsTheLane) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::fusion_secrets_test

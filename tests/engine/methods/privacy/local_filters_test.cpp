@@ -8,7 +8,7 @@
 #include "engine/methods/privacy/landmark_robot.hpp"
 #include "engine/methods/privacy/lmv_fusion.hpp"
 
-namespace vigil::privacy {
+namespace vigil::privacy::local_filters_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -152,4 +152,4 @@ TEST(PrivacyRobot, BearingsWrapAndALandmarkUnderfootIsFinite) {
 }
 
 }  // namespace
-}  // namespace vigil::privacy
+}  // namespace vigil::privacy::local_filters_test

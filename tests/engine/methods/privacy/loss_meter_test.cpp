@@ -7,7 +7,7 @@
 #include "engine/methods/privacy/two_step.hpp"
 #include "tests/engine/methods/privacy/loss_rig.hpp"
 
-namespace vigil {
+namespace vigil::loss_meter_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -156,4 +156,4 @@ TEST(PrivacyLossMeter, SpecialNoisesAgreeWithTheGeneralOne) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::loss_meter_test

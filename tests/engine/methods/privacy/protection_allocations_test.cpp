@@ -3,7 +3,7 @@
 #include "tests/engine/methods/privacy/protection_rig.hpp"
 
 #ifdef VIGIL_COUNTS_MALLOC
-namespace vigil {
+namespace vigil::protection_allocations_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -65,5 +65,5 @@ TEST(ProtectionAllocations, NobodyWhoListensAllocates) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::protection_allocations_test
 #endif

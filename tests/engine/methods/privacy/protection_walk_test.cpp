@@ -6,7 +6,7 @@
 #include "engine/methods/privacy/protection.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::protection_walk_test {
 namespace {
 
 struct World {
@@ -91,4 +91,4 @@ TEST(ProtectionWalk, EveryAttackMeetsEveryProtection) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::protection_walk_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vigil::privacy {
+namespace vigil::privacy::secrecy_code_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -34,4 +34,4 @@ TEST(PrivacySecrecy, CodeLIsUncorrelatedWithTheNewestEstimate) {
 }
 
 }  // namespace
-}  // namespace vigil::privacy
+}  // namespace vigil::privacy::secrecy_code_test

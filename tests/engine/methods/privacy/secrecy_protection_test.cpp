@@ -2,7 +2,7 @@
 #include "engine/core/input_error.hpp"
 #include "tests/engine/methods/privacy/protection_rig.hpp"
 
-namespace vigil {
+namespace vigil::secrecy_protection_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -162,4 +162,4 @@ TEST(SecrecyProtection, CodeLNeedsAStablePlant) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::secrecy_protection_test

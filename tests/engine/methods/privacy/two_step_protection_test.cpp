@@ -3,7 +3,7 @@
 #include "engine/methods/privacy/two_step.hpp"
 #include "tests/engine/methods/privacy/protection_rig.hpp"
 
-namespace vigil {
+namespace vigil::two_step_protection_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -199,4 +199,4 @@ TEST(TwoStepProtection, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::two_step_protection_test

@@ -10,7 +10,7 @@
 #include "engine/methods/privacy/gaussian_mechanism.hpp"
 #include "engine/random/draws.hpp"
 
-namespace vigil::privacy {
+namespace vigil::privacy::two_step_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -172,4 +172,4 @@ TEST(PrivacyTwoStep, RefusesSettingsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace vigil::privacy
+}  // namespace vigil::privacy::two_step_test

@@ -8,7 +8,7 @@
 #include "tests/engine/linalg/random_matrices.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::batch_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -163,4 +163,4 @@ TEST(Batch, RefusesWhatItCannotSee) {
 }
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::batch_test

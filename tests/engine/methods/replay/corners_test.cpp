@@ -5,7 +5,7 @@
 #include "tests/engine/methods/replay/mixed_reference.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::corners_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -125,4 +125,4 @@ TEST(Corners, ABoundOnZetaIsNoCorner) {
 }
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::corners_test

@@ -11,7 +11,7 @@
 #include "tests/engine/methods/replay/detector_reference.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::detector_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -268,4 +268,4 @@ TEST(Detector, JudgingAllocatesNothingAndCopiesAreIndependent) {
 #endif
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::detector_test

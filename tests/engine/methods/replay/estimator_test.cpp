@@ -12,7 +12,7 @@
 #include "tests/engine/linalg/random_matrices.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::estimator_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -228,4 +228,4 @@ TEST(Estimator, PeaksBesideTheEntropyFilterDependOnItsTuning) {
 }
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::estimator_test

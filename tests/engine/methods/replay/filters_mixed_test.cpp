@@ -2,7 +2,7 @@
 #include "tests/engine/methods/replay/filter_rig.hpp"
 #include "tests/engine/methods/replay/plain_filters.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::filters_mixed_test {
 namespace {
 
 constexpr int kTicks = 30;
@@ -194,4 +194,4 @@ TEST(MixedFilter, IsCopiedWhole) {
 }
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::filters_mixed_test

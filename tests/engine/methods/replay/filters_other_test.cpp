@@ -2,7 +2,7 @@
 #include "tests/engine/methods/replay/filter_rig.hpp"
 #include "tests/engine/methods/replay/plain_filters.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::filters_other_test {
 namespace {
 
 constexpr int kTicks = 30;
@@ -159,4 +159,4 @@ TEST(Gmeekf, PredictsThroughAGap) {
 }
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::filters_other_test

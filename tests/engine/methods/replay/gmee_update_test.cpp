@@ -9,7 +9,7 @@
 #include "tests/engine/linalg/random_matrices.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::gmee_update_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -161,4 +161,4 @@ TEST(GmeeUpdate, AStepAllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::gmee_update_test

@@ -11,7 +11,7 @@
 #include "tests/engine/methods/replay/mixed_reference.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::mixed_update_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -275,4 +275,4 @@ TEST(MixedUpdate, ATickAllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::mixed_update_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/allocations.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::watermark_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -74,4 +74,4 @@ TEST(Watermark, DrawingAllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::watermark_test

@@ -11,7 +11,7 @@
 #include "tests/engine/linalg/random_matrices.hpp"
 #include "tests/engine/methods/replay/tank.hpp"
 
-namespace vigil::replay {
+namespace vigil::replay::zonotope_filter_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -149,4 +149,4 @@ TEST(ZonotopeSchedule, AStepAllocatesNothing) {
 #endif
 
 }  // namespace
-}  // namespace vigil::replay
+}  // namespace vigil::replay::zonotope_filter_test

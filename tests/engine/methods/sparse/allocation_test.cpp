@@ -2,7 +2,7 @@
 #include "tests/engine/allocations.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::allocation_test {
 namespace {
 
 #ifdef VIGIL_COUNTS_MALLOC
@@ -57,4 +57,4 @@ TEST(SparseAllocations, AreNoneWithOtherOptions) {
 #endif
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::allocation_test

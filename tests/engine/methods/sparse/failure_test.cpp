@@ -4,7 +4,7 @@
 #include "engine/methods/sparse/filter.hpp"
 #include "tests/engine/methods/sparse/target.hpp"
 
-namespace vigil {
+namespace vigil::failure_test {
 namespace {
 
 using target::known;
@@ -125,4 +125,4 @@ TEST(SparseFilter, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::failure_test

@@ -6,7 +6,7 @@
 #include "tests/engine/methods/sparse/references.hpp"
 #include "tests/engine/methods/sparse/target.hpp"
 
-namespace vigil {
+namespace vigil::filter_test {
 namespace {
 
 using target::known;
@@ -193,4 +193,4 @@ TEST(SparseFilter, CopiesWhatItHears) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::filter_test

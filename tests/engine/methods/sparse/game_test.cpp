@@ -6,7 +6,7 @@
 #include "engine/linalg/chi_square.hpp"
 #include "tests/engine/methods/rig.hpp"
 
-namespace vigil {
+namespace vigil::game_test {
 namespace {
 
 using sparse::PotentialGame;
@@ -295,4 +295,4 @@ TEST(Game, DrawsForEachNodeAndTickAnew) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::game_test

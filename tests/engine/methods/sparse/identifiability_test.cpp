@@ -5,7 +5,7 @@
 
 #include "tests/engine/methods/sparse/target.hpp"
 
-namespace vigil {
+namespace vigil::identifiability_test {
 namespace {
 
 using target::known;
@@ -109,4 +109,4 @@ TEST(Identifiability, IsReachedInNoTimeAndStaysFinite) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::identifiability_test

@@ -3,7 +3,7 @@
 
 #include "tests/engine/methods/sparse/references.hpp"
 
-namespace vigil {
+namespace vigil::reconstruct_test {
 namespace {
 
 using sparse::WindowShape;
@@ -233,4 +233,4 @@ TEST(Reconstructors, CopiesAgree) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::reconstruct_test

@@ -8,7 +8,7 @@
 #include "engine/linalg/covariance.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::runs_test {
 namespace {
 
 using test::Capture;
@@ -267,4 +267,4 @@ TEST(SparseInput, TooManyAttackedChannelsAreAMarkNotARefusal) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::runs_test

@@ -7,7 +7,7 @@
 #include "tests/engine/methods/sparse/windows.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::shapes_test {
 namespace {
 
 using test::Capture;
@@ -149,4 +149,4 @@ TEST(SparseShapes, AStationUnderTheTrack) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::shapes_test

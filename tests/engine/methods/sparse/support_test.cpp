@@ -4,7 +4,7 @@
 
 #include "tests/engine/methods/sparse/windows.hpp"
 
-namespace vigil {
+namespace vigil::support_test {
 namespace {
 
 using windows::Tampering;
@@ -63,4 +63,4 @@ TEST(SupportAtTheTruth, IsNeverFound) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::support_test

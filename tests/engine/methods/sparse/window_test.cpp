@@ -3,7 +3,7 @@
 
 #include "tests/engine/methods/sparse/windows.hpp"
 
-namespace vigil {
+namespace vigil::window_test {
 namespace {
 
 using sparse::Linearisation;
@@ -151,4 +151,4 @@ TEST(SparseTransition, InvertsAndRefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::window_test

@@ -5,7 +5,7 @@
 
 #include "tests/engine/methods/observer/networks.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::check_test {
 namespace {
 
 Eigen::MatrixXd matrix(std::initializer_list<std::initializer_list<double>> rows) { return Eigen::MatrixXd(rows); }
@@ -129,4 +129,4 @@ TEST(CheckOfANetwork, RefusesSizesThatNoDesignIsFoundFor) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::check_test
