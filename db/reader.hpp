@@ -62,6 +62,12 @@ struct LogCounts {
   std::int64_t bytes = 0;   ///< file and write-ahead log
 };
 
+/// What the numbers of a cell's trials are called; cells that have the same share them.
+struct ColumnsRow {
+  std::int64_t cell = 0;
+  std::shared_ptr<const Json> columns;
+};
+
 struct SummaryRow {
   std::int64_t cell = 0;
   CellSummary summary;
@@ -115,8 +121,8 @@ class LogReader {
   std::optional<CampaignPart> campaign_part(std::int64_t campaign, std::int64_t cell, TrialRange range) const;
   /// Of the cells that are whole, from `first` on, in order.
   std::vector<SummaryRow> campaign_summaries(std::int64_t campaign, std::int64_t first = 0) const;
-  /// Columns of the cells that have a trial, from `first` to `last`, in order: only `cell` and `columns`.
-  std::vector<CampaignCellRow> campaign_columns(std::int64_t campaign, std::int64_t first, std::int64_t last) const;
+  /// Of the cells that have a trial, from `first` to `last`, in order.
+  std::vector<ColumnsRow> campaign_columns(std::int64_t campaign, std::int64_t first, std::int64_t last) const;
   /// The numbers of trials in order of their index; the bytes are valid during the call.
   void each_trial(std::int64_t campaign, TrialRange range,
                   const std::function<void(std::int64_t index, std::string_view numbers)>& call) const;

@@ -131,18 +131,25 @@ std::vector<SummaryRow> LogReader::campaign_summaries(std::int64_t campaign, std
   return rows;
 }
 
-std::vector<CampaignCellRow> LogReader::campaign_columns(std::int64_t campaign, std::int64_t first,
-                                                         std::int64_t last) const {
+std::vector<ColumnsRow> LogReader::campaign_columns(std::int64_t campaign, std::int64_t first,
+                                                    std::int64_t last) const {
   const auto database = state_->lease();
   auto query = database->cached(
       "SELECT cell,columns FROM campaign_cell WHERE campaign=? AND cell BETWEEN ? AND ? AND columns IS NOT NULL "
       "ORDER BY cell");
   query.all(campaign, first, last);
-  std::vector<CampaignCellRow> rows;
+  std::vector<ColumnsRow> rows;
+  std::string known;
   while (query.step()) {
-    CampaignCellRow& row = rows.emplace_back();
-    row.cell = query.integer(0);
-    row.columns = parsed(query.text(1));
+    std::string text = query.text(1);
+    std::shared_ptr<const Json> columns;
+    if (!rows.empty() && text == known) {
+      columns = rows.back().columns;
+    } else {
+      columns = std::make_shared<const Json>(parsed(text));
+      known = std::move(text);
+    }
+    rows.push_back({query.integer(0), std::move(columns)});
   }
   return rows;
 }

@@ -61,47 +61,54 @@ void results(const Services& services, CampaignResults& all, const HttpRequest& 
 /// Where the metrics of an answer stand among the numbers of each cell's trials.
 class ValuePlaces {
  public:
-  ValuePlaces(const std::vector<CampaignCellRow>& cells, std::vector<std::string> names) : names_(std::move(names)) {
+  ValuePlaces(const std::vector<ColumnsRow>& cells, std::vector<std::string> names) : names_(std::move(names)) {
     const bool all = names_.empty();
-    for (const CampaignCellRow& cell : cells) {
-      std::map<std::string, int> places;
-      int place = 0;
-      for (const Json& item : cell.columns) {
-        const std::string node = item.at("node");
-        const std::string name =
-            item.at("lane").get<std::string>() + "." + metric_id(node, item.at("name"), item.at("variant"));
-        if (!item.contains("part")) {
-          places.emplace(name, place);
-          if (all && node.empty() && !wanted(names_, name)) names_.push_back(name);
-        }
-        ++place;
-      }
-      cells_[cell.cell] = std::move(places);
+    std::shared_ptr<const Json> known;
+    for (const ColumnsRow& cell : cells) {
+      if (cell.columns != known) kinds_.push_back(read(*cell.columns, all));
+      known = cell.columns;
+      cells_[cell.cell] = kinds_.size() - 1;
     }
   }
   const std::vector<std::string>& names() const { return names_; }
   /// -1: the cell's trials have it not.
   int place(std::int64_t cell, const std::string& name) const {
-    const auto places = cells_.find(cell);
-    if (places == cells_.end()) return -1;
-    const auto found = places->second.find(name);
-    return found == places->second.end() ? -1 : found->second;
+    const auto kind = cells_.find(cell);
+    if (kind == cells_.end()) return -1;
+    const auto found = kinds_[kind->second].find(name);
+    return found == kinds_[kind->second].end() ? -1 : found->second;
   }
   /// Throws HttpError 400 where no cell has a metric that is asked for.
   void require() const {
     for (const std::string& name : names_) {
-      const auto has = [&](const auto& cell) { return cell.second.contains(name); };
-      if (cells_.empty() || std::any_of(cells_.begin(), cells_.end(), has)) continue;
+      const auto has = [&](const auto& kind) { return kind.contains(name); };
+      if (kinds_.empty() || std::any_of(kinds_.begin(), kinds_.end(), has)) continue;
       std::vector<std::string> known;
-      for (const auto& [other, place] : cells_.begin()->second) known.push_back(other);
+      for (const auto& [other, place] : kinds_.front()) known.push_back(other);
       throw HttpError(400, "metric is " + in_quotes(name) + "; expected metrics of the campaign.",
                       {{"/metric", "no trial has it", listed(known)}});
     }
   }
 
  private:
+  using Kind = std::map<std::string, int>;
+  Kind read(const Json& columns, bool all) {
+    Kind places;
+    int place = -1;
+    for (const Json& item : columns) {
+      ++place;
+      if (item.contains("part")) continue;
+      const std::string node = item.at("node"), id = metric_id(node, item.at("name"), item.at("variant"));
+      const std::string name = item.at("lane").get<std::string>() + "." + id;
+      places.emplace(name, place);
+      if (all && node.empty() && !wanted(names_, name)) names_.push_back(name);
+    }
+    return places;
+  }
+
   std::vector<std::string> names_;
-  std::map<std::int64_t, std::map<std::string, int>> cells_;
+  std::vector<Kind> kinds_;
+  std::map<std::int64_t, std::size_t> cells_;  ///< place among kinds_
 };
 
 /// The trials that are asked for: those of a cell, or all.

@@ -6,7 +6,7 @@ import { formatNumber } from '../../i18n/format.svelte';
 import { pointHits, zoomed } from './hits';
 import { boxOf, cut, place, rangeOf, xAxis, xTick, xTitle, yAxis, yTitle, type Box } from './plot';
 import type { Hit, Mark, Scene, Zoom } from './scene';
-import { valueText, type Results, type SweptAxis } from './stats';
+import { exactText, valueText, type Results, type SweptAxis } from './stats';
 
 export type Band = 'wide' | 'half' | 'none';
 
@@ -151,7 +151,7 @@ export function bandsTable({ results, metric, lanes, axis, cells }: BandsQuestio
       const one = cell && results.of(metric, results.lanes[lane]!, cell.cell);
       if (!one) return [];
       const q = (key: string): string | number => one.quantiles[key] ?? '';
-      const swept = axis ? [valueText(axis.values[i], 1000)] : [];
+      const swept = axis ? [exactText(axis.values[i])] : [];
       return [[...swept, one.lane, one.n, one.mean ?? '', one.se ?? '', one.median ?? '', one.min ?? '', one.max ?? '', q('0.05'), q('0.25'), q('0.75'), q('0.95')]];
     }),
   );

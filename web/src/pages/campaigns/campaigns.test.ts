@@ -8,7 +8,7 @@ import { againstBase } from './paired';
 import { brushOf, frameOf, parallelHits, parallelScene, parallelTable, pathAxis, rowText, type TrialTable } from './parallel';
 import { svgText } from './scene_svg';
 import { bodyOf, leafPaths, pointsOf, readValues, sweepFaults, type Wish } from './start';
-import { cellAt, doneOf, firstMetric, fixedText, metricId, resultsOf, shortPath, sweptAxis, takeFigures } from './stats';
+import { cellAt, doneOf, exactText, firstMetric, fixedText, metricId, resultsOf, shortPath, sweptAxis, takeFigures, valueText } from './stats';
 import { stripScene } from './strip';
 import { surfaceCells, surfaceScene, type SurfaceQuestion } from './surface';
 
@@ -54,6 +54,7 @@ describe('results', () => {
 
   it('puts numbers in order and leaves words as they come', () => {
     expect(sweptAxis('p', [3, 1, 2]).at).toEqual([1, 2, 3]);
+    expect([valueText(0.1 + 0.2), exactText(0.1 + 0.2)]).toEqual(['0.3', '0.30000000000000004']);
     expect(sweptAxis('p', ['b', 'a'])).toMatchObject({ numeric: false, values: ['b', 'a'], at: [0, 1] });
   });
 });

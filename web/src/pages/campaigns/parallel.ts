@@ -96,7 +96,7 @@ export function linesOf(table: TrialTable, frame: Frame, rows: Int32Array): Floa
 }
 
 /** How strong one of so many lines is. */
-export const strengthOf = (rows: number): number => Math.max(0.12, Math.min(0.5, 60 / Math.max(1, rows)));
+export const strengthOf = (rows: number): number => Math.max(0.04, Math.min(0.5, 60 / Math.max(1, rows)));
 
 /** The whole picture in one list, for a file. */
 export function parallelScene(table: TrialTable, rows: Int32Array, brushes: Brushes, close: boolean, width: number, height: number): Scene {

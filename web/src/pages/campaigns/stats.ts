@@ -56,9 +56,12 @@ export function firstMetric(metrics: readonly MetricName[]): string {
   return (whole.find(({ id }) => /^(rmse|rms|mse)/.test(id)) ?? whole[0] ?? metrics[0])?.id ?? '';
 }
 
-/** A swept value in few characters. */
+/** As it was given, for files. */
+export const exactText = (value: unknown): string => (typeof value === 'string' ? value : JSON.stringify(value));
+
+/** A swept value in few characters: 0.1 + 0.2 is 0.3 to the eye. */
 export function valueText(value: unknown, most = 24): string {
-  const text = typeof value === 'string' ? value : JSON.stringify(value);
+  const text = typeof value === 'number' ? String(Number(value.toPrecision(9))) : exactText(value);
   return text.length > most ? `${text.slice(0, most - 1)}…` : text;
 }
 

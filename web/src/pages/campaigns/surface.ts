@@ -4,7 +4,7 @@ import { colour, laneToken } from '../../chart/colours';
 import { formatNumber } from '../../i18n/format.svelte';
 import { boxOf, cut, rangeOf, xTitle, yTitle, type Box } from './plot';
 import type { Hit, Hits, Mark, Scene } from './scene';
-import { cellAt, valueText, type Results, type SweptAxis } from './stats';
+import { cellAt, exactText, valueText, type Results, type SweptAxis } from './stats';
 
 export interface SurfaceQuestion {
   results: Results;
@@ -99,6 +99,6 @@ function hitsOf({ x, y, metric, lane, results }: SurfaceQuestion, cells: readonl
 
 export function surfaceTable(question: SurfaceQuestion): { columns: string[]; rows: (string | number)[][] } {
   const { x, y, metric, results, lane } = question;
-  const rows = surfaceCells(question).map(({ i, j, mean }) => [valueText(x.values[i], 1000), valueText(y.values[j], 1000), mean ?? '']);
+  const rows = surfaceCells(question).map(({ i, j, mean }) => [exactText(x.values[i]), exactText(y.values[j]), mean ?? '']);
   return { columns: [x.path, y.path, `${results.lanes[lane]}.${metric}`], rows };
 }
