@@ -13,7 +13,9 @@ namespace vigil {
 class ByteWriter {
  public:
   void word(std::uint64_t value) {
-    for (int i = 0; i < 8; ++i) text_ += static_cast<char>(value >> (8 * i) & 0xff);
+    char bytes[8];
+    for (int i = 0; i < 8; ++i) bytes[i] = static_cast<char>(value >> (8 * i) & 0xff);
+    text_.append(bytes, 8);
   }
   void number(double value) { word(std::bit_cast<std::uint64_t>(value)); }
   void integer(std::int64_t value) { word(std::bit_cast<std::uint64_t>(value)); }

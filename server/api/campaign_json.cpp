@@ -27,6 +27,8 @@ Json campaign_item(const CampaignRow& row, const Services& services) {
             {"sweep", request.value("sweep", Json::object())},
             {"points", row.trials / std::max<std::int64_t>(runs, 1)},
             {"threads", request.value("threads", 0)},
+            {"crew", request.value("crew", "threads")},
+            {"workers", Json::array()},
             {"samples", request.value("samples", false)},
             {"tags", request.value("tags", Json::array())},
             {"note", request.value("note", "")}};
@@ -35,6 +37,7 @@ Json campaign_item(const CampaignRow& row, const Services& services) {
                       {"failed", row.failed},
                       {"trials_per_second", speed ? Json(speed->trials_per_second) : Json()},
                       {"seconds_left", speed && speed->seconds_left ? Json(*speed->seconds_left) : Json()}};
+  for (const CrewMember& member : services.campaigns.workers(row.id)) item["workers"].push_back(to_json(member));
   item["created"] = to_rfc3339(row.created);
   item["ended"] = row.ended ? Json(to_rfc3339(*row.ended)) : Json();
   item["error"] = row.error.empty() ? Json() : Json(row.error);

@@ -34,9 +34,18 @@ void read_input(const Json& input, const Services& services, CampaignRequest& re
   throw InputError("/input/trace", "there is no trace " + std::to_string(*request.trace), "an id of GET /traces");
 }
 
+void read_crew(const Json& crew, const Services& services, CampaignRequest& request) {
+  if (crew != "threads" && crew != "workers")
+    throw InputError("/crew", "crew is " + shown(crew) + "; expected threads or workers", "threads, workers");
+  request.workers = crew == "workers";
+  if (request.workers && services.broker == nullptr)
+    throw InputError("/crew", "this server has no broker that workers could be found by; start it with --nats URL",
+                     "threads");
+}
+
 CampaignRequest read_request(const Json& body, const Services& services) {
-  check_members(body,
-                {"scenario", "patch", "runs", "first_seed", "sweep", "threads", "samples", "input", "tags", "note"});
+  check_members(body, {"scenario", "patch", "runs", "first_seed", "sweep", "threads", "crew", "samples", "input",
+                       "tags", "note"});
   CampaignRequest request;
   request.scenario = read_scenario(body, services);
   if (!body.contains("runs"))
@@ -47,12 +56,15 @@ CampaignRequest read_request(const Json& body, const Services& services) {
     request.first_seed = static_cast<std::uint64_t>(read_integer(body.at("first_seed"), "first_seed", 0, last));
   if (body.contains("sweep")) read_sweep(body.at("sweep"), request);
   if (body.contains("threads")) request.threads = static_cast<int>(read_integer(body.at("threads"), "threads", 1, 256));
+  if (body.contains("crew")) read_crew(body.at("crew"), services, request);
   if (body.contains("samples")) {
     if (!body.at("samples").is_boolean())
       throw InputError("/samples", "samples is " + shown(body.at("samples")) + "; expected true or false",
                        "true, false");
     request.samples = body.at("samples").get<bool>();
   }
+  if (request.workers && request.samples)
+    throw InputError("/crew", "samples are kept by this server's own threads only", "threads");
   if (body.contains("input")) read_input(body.at("input"), services, request);
   if (body.contains("tags")) request.tags = read_tags(body.at("tags"));
   if (body.contains("note")) request.note = read_note(body.at("note"));
@@ -143,6 +155,7 @@ Json create_doc() {
            {"first_seed", doc::integer_schema(0, static_cast<std::int64_t>(kLargestSeed) - kMostTrials)},
            {"sweep", {{"type", "object"}, {"additionalProperties", values}}},
            {"threads", doc::integer_schema(1, 256)},
+           {"crew", {{"enum", {"threads", "workers"}}, {"description", "who makes the trials; threads without"}}},
            {"samples", {{"type", "boolean"}, {"description", "keep every trial as a run, tagged campaign:ID"}}},
            {"input", {{"description", "\"simulate\" or {\"trace\":id}"}}},
            {"tags", {{"type", "array"}, {"items", {{"type", "string"}}}}},

@@ -1,10 +1,12 @@
 #include "server/api/server.hpp"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <utility>
 
+#include "engine/core/input_error.hpp"
 #include "server/api/papers_routes.hpp"
 #include "server/api/services.hpp"
 #include "server/papers/manager.hpp"
@@ -19,6 +21,23 @@ constexpr const char* kNoPage =
     "<p>The server runs and its API answers below <code>/api/v1</code>, but the page's files were not found.</p>"
     "<p>Build them with <code>cd web &amp;&amp; npm ci &amp;&amp; npm run build</code>, or start the server with "
     "<code>script/server</code>, which does that; <code>--web DIR</code> names another folder.</p></body></html>\n";
+
+std::unique_ptr<Broker> connect(const NatsOptions& options) {
+  if (options.url.empty()) return nullptr;
+  try {
+    return connect_nats(options);
+  } catch (const std::runtime_error& failure) {
+    throw InputError("/nats", std::string("--nats: ") + failure.what());
+  }
+}
+
+/// The same wherever it is opened from, and like no other machine's.
+std::string log_name(const std::string& db) {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  std::error_code error;
+  return std::string(host) + ":" + std::filesystem::weakly_canonical(db, error).string();
+}
 
 Route no_page_route() {
   Route route;
@@ -42,8 +61,9 @@ struct Server::State {
         log(options.db, options.log),
         reader(options.db),
         hub(options.hub),
+        broker(connect(options.nats)),
         runs(log, reader, hub, options.runs),
-        campaigns(log, reader, hub, runs),
+        campaigns(log, reader, hub, runs, {broker.get(), log_name(options.db)}),
         papers(log, reader, runs),
         services{log,
                  reader,
@@ -53,7 +73,8 @@ struct Server::State {
                  [this] { return front->stats(); },
                  [this]() -> const Routes& { return front->routes(); },
                  [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
-                 options.front.tokens.required()} {
+                 options.front.tokens.required(),
+                 broker.get()} {
     Routes routes = make_routes(services);
     add_papers_routes(routes, papers);
     if (files.empty()) routes.add(no_page_route());
@@ -65,6 +86,7 @@ struct Server::State {
   LogWriter log;
   LogReader reader;
   Hub hub;
+  std::unique_ptr<Broker> broker;
   std::atomic<RunId> demo{-1};
   RunManager runs;
   CampaignManager campaigns;

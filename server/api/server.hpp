@@ -8,6 +8,7 @@
 
 #include "db/writer.hpp"
 #include "server/api/services.hpp"
+#include "server/crew/broker.hpp"
 #include "server/front/front.hpp"
 #include "server/hub/hub.hpp"
 #include "server/runs/manager.hpp"
@@ -20,13 +21,15 @@ struct ServerOptions {
   ManagerOptions runs;
   LogOptions log;
   std::string db = "vigil.db";
+  NatsOptions nats;                          ///< an empty URL: no broker
   std::optional<std::filesystem::path> web;  ///< the page's files; empty: a plain page says how to build them
   bool demo = true;
 };
 
 class Server {
  public:
-  /// Opens the log. Throws LogError; std::runtime_error where the page's files cannot be read.
+  /// Opens the log. Throws LogError; std::runtime_error where the page's files cannot be read, InputError where the
+  /// broker's options cannot be used.
   explicit Server(ServerOptions options);
   ~Server();  ///< stops
   /// Listens, then starts the demo. Throws std::runtime_error if the port cannot be had.

@@ -25,6 +25,7 @@ struct Services {
   std::function<const Routes&()> routes;       ///< the table as the front has it, its own routes included
   std::function<std::optional<RunId>()> demo;  ///< the demo run, if one was started
   bool auth = false;                           ///< a token is asked for
+  const Broker* broker = nullptr;              ///< NATS; null: none
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 

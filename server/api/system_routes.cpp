@@ -24,6 +24,7 @@ Json server_json(const Services& services) {
                  {"dropped", health.dropped}};
   info["demo"] = demo ? Json(std::to_string(*demo)) : Json();
   info["auth"] = services.auth;
+  info["nats"] = services.broker != nullptr ? Json{{"connected", services.broker->connected()}} : Json();
   return info;
 }
 

@@ -18,17 +18,25 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostWaiting = 256;
-constexpr int kNice = 5;        // live runs and the page come first
-constexpr auto kAnnounce = 1s;  // between two notes of progress in the global feed
+constexpr int kNice = 5;                     // live runs and the page come first
+constexpr auto kAnnounce = 1s;               // between two notes of progress in the global feed
+constexpr std::size_t kMostRemembered = 64;  // campaigns whose workers are still told
 constexpr auto kSolverLook = 50ms;
 
 /// Thrown where somebody wants the campaign to end before its first trial.
 struct Ended {};
 
+/// It wants workers and the server has no broker.
+class NoWorkers : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace
 
-CampaignManager::CampaignManager(LogWriter& log, const LogReader& reader, Hub& hub, RunManager& runs)
-    : log_(log), reader_(reader), hub_(hub), runs_(runs), worker_([this] { work(); }) {}
+CampaignManager::CampaignManager(LogWriter& log, const LogReader& reader, Hub& hub, RunManager& runs,
+                                 WorkerSource workers)
+    : log_(log), reader_(reader), hub_(hub), runs_(runs), source_(std::move(workers)), worker_([this] { work(); }) {}
 
 CampaignManager::~CampaignManager() { stop(); }
 
@@ -122,6 +130,9 @@ void CampaignManager::carry_out(std::int64_t id) {
     state = run(id);
   } catch (const Ended&) {
     state.clear();
+  } catch (const NoWorkers& failure) {
+    state = "paused";
+    error = failure.what();
   } catch (const LogError& failure) {
     state = failure.kind() == LogError::Kind::disk ? "paused" : "failed";
     error = failure.what();
@@ -155,11 +166,42 @@ std::string CampaignManager::run(std::int64_t id) {
     current_.failed = row->failed;
     current_.begin = Clock::now();
   }
-  ThreadCrew crew;
-  const bool whole = work.run(crew, current_.stop, [this](std::int64_t done, const TrialResult& trial) {
-    progress(done, std::string_view(trial_state(trial)) != "finished");
-  });
+  const auto crew = hire(id, request);
+  const auto show = [this](const Crew* now) {
+    const std::lock_guard lock(mutex_);
+    crew_ = now;
+  };
+  show(crew.get());
+  bool whole = false;
+  try {
+    whole = work.run(*crew, current_.stop, [this](std::int64_t done, const TrialResult& trial) {
+      progress(done, std::string_view(trial_state(trial)) != "finished");
+    });
+  } catch (...) {
+    show(nullptr);
+    throw;
+  }
+  show(nullptr);
+  if (request.workers) {
+    const std::lock_guard lock(mutex_);
+    workers_[id] = crew->members();
+    if (workers_.size() > kMostRemembered) workers_.erase(workers_.begin());
+  }
   return whole ? "finished" : "";
+}
+
+std::unique_ptr<Crew> CampaignManager::hire(std::int64_t id, const CampaignRequest& request) const {
+  if (!request.workers) return std::make_unique<ThreadCrew>();
+  if (source_.broker == nullptr)
+    throw NoWorkers("It wants workers, and this server has no broker: start it with --nats URL.");
+  return source_.broker->crew(source_.owner + "#" + std::to_string(id));
+}
+
+std::vector<CrewMember> CampaignManager::workers(std::int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  if (current_.id == id && crew_ != nullptr) return crew_->members();
+  const auto known = workers_.find(id);
+  return known == workers_.end() ? std::vector<CrewMember>() : known->second;
 }
 
 CampaignPlan CampaignManager::prepare(std::int64_t id, const CampaignRequest& request) {

@@ -7,6 +7,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -15,11 +17,18 @@
 #include "db/reader.hpp"
 #include "db/writer.hpp"
 #include "server/campaigns/request.hpp"
+#include "server/crew/broker.hpp"
 #include "server/hub/hub.hpp"
 
 namespace vigil {
 
 class RunManager;
+
+/// Where campaigns find workers.
+struct WorkerSource {
+  Broker* broker = nullptr;  ///< null: there are none
+  std::string owner;         ///< tells this log's campaigns from others at the same broker
+};
 
 /// How fast the campaign goes that runs now.
 struct CampaignSpeed {
@@ -30,7 +39,7 @@ struct CampaignSpeed {
 class CampaignManager {
  public:
   /// All outlive the manager.
-  CampaignManager(LogWriter& log, const LogReader& reader, Hub& hub, RunManager& runs);
+  CampaignManager(LogWriter& log, const LogReader& reader, Hub& hub, RunManager& runs, WorkerSource workers = {});
   ~CampaignManager();  ///< stops
   CampaignManager(const CampaignManager&) = delete;
   CampaignManager& operator=(const CampaignManager&) = delete;
@@ -49,6 +58,8 @@ class CampaignManager {
   void remove(std::int64_t id);
   /// Empty where it does not run now.
   std::optional<CampaignSpeed> speed(std::int64_t id) const;
+  /// Of its crew, as far as this server has seen them; empty for threads.
+  std::vector<CrewMember> workers(std::int64_t id) const;
   /// The campaign that runs becomes "interrupted", those that wait, too.
   void stop();
 
@@ -66,6 +77,7 @@ class CampaignManager {
   void work();
   void carry_out(std::int64_t id);
   std::string run(std::int64_t id);
+  std::unique_ptr<Crew> hire(std::int64_t id, const CampaignRequest& request) const;
   CampaignPlan prepare(std::int64_t id, const CampaignRequest& request);
   Json designs_of(const Scenario& scenario, Json known);
   void progress(std::int64_t done, bool failed);
@@ -78,11 +90,14 @@ class CampaignManager {
   const LogReader& reader_;
   Hub& hub_;
   RunManager& runs_;
+  const WorkerSource source_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::int64_t> queue_;
-  Current current_;  ///< id 0: none
+  Current current_;                                          ///< id 0: none
+  const Crew* crew_ = nullptr;                               ///< of the current one, while it makes trials
+  std::map<std::int64_t, std::vector<CrewMember>> workers_;  ///< of those before it
   bool stopping_ = false;
   std::thread worker_;
 };

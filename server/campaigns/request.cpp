@@ -15,6 +15,7 @@ Json CampaignRequest::to_json() const {
             {"first_seed", first_seed},
             {"sweep", std::move(grid)},
             {"threads", threads},
+            {"crew", workers ? "workers" : "threads"},
             {"samples", samples},
             {"tags", tags},
             {"note", note}};
@@ -30,6 +31,7 @@ CampaignRequest CampaignRequest::from_json(const Json& json) {
   for (const auto& [path, values] : json.at("sweep").items())
     request.sweep.emplace_back(path, values.get<std::vector<Json>>());
   request.threads = json.value("threads", 0);
+  request.workers = json.value("crew", "threads") == "workers";
   request.samples = json.value("samples", false);
   request.tags = json.value("tags", std::vector<std::string>());
   request.note = json.value("note", "");
@@ -39,7 +41,7 @@ CampaignRequest CampaignRequest::from_json(const Json& json) {
 
 std::string CampaignRequest::identity() const {
   Json json = to_json();
-  for (const char* other : {"threads", "tags", "note"}) json.erase(other);
+  for (const char* other : {"threads", "crew", "tags", "note"}) json.erase(other);
   return json.dump();
 }
 

@@ -21,6 +21,7 @@ struct CampaignRequest {
   std::int64_t runs = 1;  ///< of each cell
   std::uint64_t first_seed = 1;
   int threads = 0;       ///< 0: all cores
+  bool workers = false;  ///< made by the broker's workers, not by threads of this process
   bool samples = false;  ///< every trial is kept as a run with its samples, too
   std::vector<std::string> tags;
   std::string note;

@@ -18,6 +18,7 @@
 #include "server/cli/report.hpp"
 #include "server/cli/scenario_options.hpp"
 #include "server/crew/threads.hpp"
+#include "server/runs/bundle.hpp"
 
 namespace vigil {
 namespace {
@@ -149,9 +150,11 @@ Followed logged(CampaignCommand& command, Asked& asked, CampaignPlan& plan, Brok
   LogWriter log(command.db);
   const LogReader reader(command.db);
   if (asked.trace) {
-    const std::string& file = command.scenario.trace;
-    if (file.empty()) throw UserError("a bundle's trace cannot be logged with a campaign; give it by --trace FILE");
-    asked.request.trace = log.put_trace(file, read_text(file), asked.trace->rows(), asked.trace->columns());
+    // A bundle brings its trace along.
+    const bool own = command.scenario.trace.empty();
+    const std::string& file = own ? command.scenario.scenario : command.scenario.trace;
+    const std::string text = own ? read_bundle(read_json(file)).trace_csv : read_text(file);
+    asked.request.trace = log.put_trace(file, text, asked.trace->rows(), asked.trace->columns());
   }
   const auto row = unfinished(reader, command, asked);
   plan = complete(command, asked, row ? reader.campaign_cells(row->id) : std::vector<CampaignCellRow>());
@@ -225,7 +228,12 @@ int carry_out(CampaignCommand& command) {
   if (command.db.empty()) plan = complete(command, asked, {});
   const auto begin = std::chrono::steady_clock::now();
   const auto broker = command.nats.given() ? command.nats.connect() : nullptr;
-  Followed followed = command.db.empty() ? in_memory(plan, broker.get()) : logged(command, asked, plan, broker.get());
+  Followed followed;
+  try {
+    followed = command.db.empty() ? in_memory(plan, broker.get()) : logged(command, asked, plan, broker.get());
+  } catch (const BrokerRefusal& refusal) {
+    throw UserError(std::string("--nats: ") + refusal.what());
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (CellResult& cell : followed.cells)
     drop_seconds(cell.result["design"], plan.points[static_cast<std::size_t>(cell.cell)].designs);

@@ -11,6 +11,7 @@
 #include "engine/scenario/scenario.hpp"
 #include "server/api/server.hpp"
 #include "server/cli/commands.hpp"
+#include "server/cli/nats_options.hpp"
 
 namespace vigil {
 namespace {
@@ -20,6 +21,7 @@ struct ServeCommand {
   std::string web, token_file;
   bool no_demo = false;
   double keep_days = -1, keep_gib = 20;
+  NatsFlags nats;
 };
 
 bool is_loopback(const std::string& host) {
@@ -65,6 +67,9 @@ ServerOptions settle(const ServeCommand& command) {
   }
   options.web = find_page(command.web);
   options.demo = !command.no_demo;
+  options.nats = command.nats.options;
+  options.nats.name = "vigil serve";
+  options.nats.say = [](const std::string& sentence) { spdlog::warn("NATS: {}", sentence); };
   options.log.keep_days = limit(command.keep_days, "--keep-days");
   options.log.keep_gib = limit(command.keep_gib, "--keep-gib");
   return options;
@@ -118,6 +123,7 @@ void add_serve(CLI::App& app, Action& action) {
                   "a host that alarms of runs may be sent to; none without")
       ->take_all()
       ->allow_extra_args(false);
+  command->nats.add_to(*sub, "a broker's URL: campaigns can be made by its workers (vigil worker)");
   sub->add_flag("--no-demo", command->no_demo, "start no demo run");
   sub->add_option("--keep-days", command->keep_days, "remove finished runs older than this");
   sub->add_option("--keep-gib", command->keep_gib,

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,12 @@ struct NatsOptions {
   std::string name = "vigil";  ///< what the broker calls the connection
   /// One sentence for people: the broker is gone, is there again, a worker refuses. From any thread.
   std::function<void(const std::string&)> say;
+};
+
+/// The broker will not have us, however often it is asked: one sentence.
+class BrokerRefusal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 class Broker {

@@ -7,7 +7,7 @@
 
 namespace vigil {
 
-/// zstd, level 1, with its checksum.
+/// zstd, one of its fastest levels, with its checksum.
 std::string pack(std::string_view bytes);
 /// Throws std::runtime_error where the bytes are damaged, or hold more than `most`.
 std::string unpack(std::string_view packed, std::size_t most);

@@ -59,7 +59,7 @@ std::shared_ptr<const CampaignPlan> ShippedPlan::plan_of(std::int64_t point) {
 
 TrialResult ShippedPlan::trial(std::int64_t index, const std::atomic<bool>& stop) {
   if (index < 0) throw std::out_of_range("There is no such trial.");
-  return plain_trial(*plan_of(index / runs_), index % runs_, stop);
+  return plain_trial(*plan_of(point_of(index)), index % runs_, stop);
 }
 
 }  // namespace vigil

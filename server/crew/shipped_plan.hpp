@@ -25,6 +25,7 @@ class ShippedPlan {
   explicit ShippedPlan(std::string_view bytes);
   /// As plain_trial() of the plan that was shipped. Throws also std::out_of_range: there is no such trial.
   TrialResult trial(std::int64_t index, const std::atomic<bool>& stop);
+  std::int64_t point_of(std::int64_t index) const { return index / runs_; }
 
  private:
   std::shared_ptr<const CampaignPlan> plan_of(std::int64_t point);

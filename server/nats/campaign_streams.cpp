@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::int64_t kAnswer = 5000;  // ms to wait for one
+constexpr std::int64_t kAnswer = 2000;  // ms to wait for one
 constexpr int kBatch = 64;
 constexpr std::int64_t kDuplicates = 120'000'000'000;  // ns in which the same message counts once
 
@@ -62,8 +62,9 @@ bool CampaignStreams::make() {
   results_.reset();
   sweep();
   key_ = id_ + "_" + fresh_word();
-  if (!add_stream(job_stream(key_), job_subject(key_)) || !add_stream(result_stream(key_), result_subject(key_)))
-    return false;
+  if (!add_stream(job_stream(key_), job_subject(key_), js_FileStorage)) return false;
+  // Results wait a moment only; those that a broker takes along when it dies are made again.
+  if (!add_stream(result_stream(key_), result_subject(key_), js_MemoryStorage)) return false;
   if (!add_consumer(job_stream(key_), kWorkers, kMostDeliveries)) return false;
   if (!add_consumer(result_stream(key_), kCampaign, -1)) return false;
   const std::string stream = result_stream(key_);
@@ -80,7 +81,7 @@ bool CampaignStreams::make() {
   return status == NATS_OK;
 }
 
-bool CampaignStreams::add_stream(const std::string& name, const std::string& subject) {
+bool CampaignStreams::add_stream(const std::string& name, const std::string& subject, jsStorageType storage) {
   jsStreamConfig config;
   jsStreamConfig_Init(&config);
   const char* subjects[] = {subject.c_str()};
@@ -88,13 +89,13 @@ bool CampaignStreams::add_stream(const std::string& name, const std::string& sub
   config.Subjects = subjects;
   config.SubjectsLen = 1;
   config.Retention = js_WorkQueuePolicy;
-  config.Storage = js_FileStorage;
+  config.Storage = storage;
   config.Duplicates = kDuplicates;
   jsOptions options = patient();
   jsErrCode code{};
   const natsStatus status = js_AddStream(nullptr, connection_.streams(), &config, &options, &code);
   if (is_final(status, code))
-    throw std::runtime_error("the broker keeps no streams; it must be started with JetStream (nats-server -js)");
+    throw BrokerRefusal("the broker keeps no streams; it must be started with JetStream (nats-server -js)");
   return status == NATS_OK;
 }
 

@@ -1,4 +1,4 @@
-/// The two streams of one campaign: jobs out, results back. Files of the broker; gone with the campaign.
+/// The two streams of one campaign: jobs out (kept in files), results back (kept in memory); gone with the campaign.
 #pragma once
 
 #include <chrono>
@@ -47,7 +47,7 @@ class CampaignStreams {
   std::vector<TrialJob> take_exhausted();
 
  private:
-  bool add_stream(const std::string& name, const std::string& subject);
+  bool add_stream(const std::string& name, const std::string& subject, jsStorageType storage);
   bool add_consumer(const std::string& stream, const char* name, int deliveries);
   void sweep() const;
 

@@ -34,7 +34,7 @@ class Course {
 
   void run(const std::atomic<bool>& stop, const Crew::Take& take) {
     while (!ledger_.done() && !stop) {
-      if (const std::string why = connection_.refusal(); !why.empty()) throw std::runtime_error(why);
+      if (const std::string why = connection_.refusal(); !why.empty()) throw BrokerRefusal(why);
       look_after();
       publish();
       collect();

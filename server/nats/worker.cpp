@@ -151,10 +151,15 @@ JobResult Hand::make(OfferedCampaign& campaign, ShippedPlan& plan, const TrialJo
   JobResult result;
   result.job = job;
   const auto begin = Clock::now();
+  std::int64_t designed = -1;  // point whose design is in the result
   try {
     for (std::int64_t index = job.first; index < job.first + job.count; ++index) {
       pause_and_die(campaign, index);
-      result.trials.push_back(save_trial(plan.trial(index, campaign.over)));
+      TrialResult trial = plan.trial(index, campaign.over);
+      const std::int64_t point = plan.point_of(index);
+      if (point == designed) trial.design = nullptr;  // a point keeps its first trial's only
+      if (!trial.design.is_null()) designed = point;
+      result.trials.push_back(save_trial(trial));
     }
   } catch (const std::exception& failure) {
     result.trials.clear();
@@ -216,7 +221,7 @@ void run_nats_worker(const WorkerOptions& options, const std::atomic<bool>& stop
   ending = true;
   board.close();
   for (std::thread& thread : threads) thread.join();
-  if (const std::string why = connection.refusal(); !why.empty() && !stop) throw std::runtime_error(why);
+  if (const std::string why = connection.refusal(); !why.empty() && !stop) throw BrokerRefusal(why);
 }
 
 }  // namespace vigil
