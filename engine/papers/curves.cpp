@@ -24,6 +24,8 @@ Estimate mean_of(const std::vector<double>& values) {
   const auto kept = present(values);
   const auto n = static_cast<double>(kept.size());
   if (kept.empty()) return {};
+  const auto [least, most] = std::minmax_element(kept.begin(), kept.end());
+  if (n > 1 && *least == *most) return {*least, 0};  // a sum's rounding is no error of theirs
   const double mean = std::accumulate(kept.begin(), kept.end(), 0.0) / n;
   double squares = 0;
   for (const double value : kept) squares += (value - mean) * (value - mean);

@@ -1,19 +1,10 @@
 #include "engine/papers/item.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace vigil::papers {
 namespace {
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json finite(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(finite(value));
-  return list;
-}
 
 /// Whether there is a claim on this reading, and all of them hold.
 bool stands(const std::vector<Claim>& claims, Reading reading) {
@@ -24,21 +15,6 @@ bool stands(const std::vector<Claim>& claims, Reading reading) {
     some = true;
   }
   return some;
-}
-
-Json to_json(const Axis& axis) { return {{"label", axis.label}, {"scale", axis.log ? "log" : "linear"}}; }
-
-Json to_json(const Panel& panel) {
-  Json series = Json::array();
-  for (const Series& one : panel.series)
-    series.push_back({{"name", one.name}, {"style", one.style}, {"x", finite(one.x)}, {"y", finite(one.y)}});
-  return {{"title", panel.title}, {"x", to_json(panel.x)}, {"y", to_json(panel.y)}, {"series", std::move(series)}};
-}
-
-Json to_json(const Claim& claim) {
-  return {{"reading", to_string(claim.reading)}, {"what", claim.what},          {"paper", claim.paper},
-          {"ours", finite(claim.ours.value)},    {"se", finite(claim.ours.se)}, {"low", finite(claim.low)},
-          {"high", finite(claim.high)},          {"holds", claim.holds()}};
 }
 
 }  // namespace
@@ -99,22 +75,20 @@ const std::vector<Item>& items() {
   return all;
 }
 
-Json to_json(const Item& item, const Findings& findings) {
-  const Claim& head = headline_of(findings);
-  Json claims = Json::array(), panels = Json::array();
-  for (const Claim& claim : findings.claims) claims.push_back(to_json(claim));
-  for (const Panel& panel : findings.panels) panels.push_back(to_json(panel));
-  return {{"key", item.key},
-          {"title", {{"en", item.title.en}, {"zh", item.title.zh}}},
-          {"paper", head.paper},
-          {"ours", finite(head.ours.value)},
-          {"se", finite(head.ours.se)},
-          {"verdict", to_string(verdict_of(findings))},
-          {"reason", item.reason},
-          {"runs", findings.runs},
-          {"scenario", item.scenario},
-          {"spec", item.spec},
-          {"figure", {{"rule", item.rule}, {"claims", std::move(claims)}, {"panels", std::move(panels)}}}};
+const Basis& Item::basis() const {
+  const Basis* found = basis_of(key);
+  if (found == nullptr) throw std::logic_error(key + " stands on nothing");
+  return *found;
+}
+
+std::vector<std::string> Item::methods() const {
+  std::vector<std::string> all;
+  for (const Scene& scene : basis().scenes) {
+    for (const std::string& id : scene.methods()) {
+      if (std::find(all.begin(), all.end(), id) == all.end()) all.push_back(id);
+    }
+  }
+  return all;
 }
 
 }  // namespace vigil::papers

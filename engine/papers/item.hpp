@@ -8,6 +8,7 @@
 
 #include "engine/core/json.hpp"
 #include "engine/core/params.hpp"
+#include "engine/papers/basis.hpp"
 #include "engine/papers/laboratory.hpp"
 
 namespace vigil::papers {
@@ -69,14 +70,25 @@ struct Item {
   std::string rule;      ///< how the verdict comes about, in one sentence
   std::string reason;    ///< why ours differs, or what had to be corrected: from the specification's entries
   Findings (*measure)(Laboratory&) = nullptr;
+
+  const Basis& basis() const;                ///< its runs and equations
+  std::vector<std::string> methods() const;  ///< of its runs, each once
 };
 
 /// Every figure and table there is, in the order of the sources.
 const std::vector<Item>& items();
 
 /// {"key","title","paper","ours","se","verdict","reason","runs","scenario","spec","figure"}: the contract, section 5.
-/// figure: {"rule","claims":[…],"panels":[…]}. No number in it that is not finite.
+/// figure: {"rule","claims":[…],"panels":[…]}. No number in it that is not finite. "zh" has the texts in Chinese, of
+/// the item, of each claim and of each panel.
 Json to_json(const Item& item, const Findings& findings);
+/// The texts in Chinese: {"paper","reason","rule"}.
+Json words_json(const Item& item, const Json& paper);
+/// What it stands on, whether it was run or not: {"scenes":[{"name","scenario","patch"}],"methods":[{"id","title"}],
+/// "equations":[…]}.
+Json basis_json(const Item& item);
+/// The Chinese texts of a kept result's figure, put in where they are missing.
+void add_chinese(Json& figure);
 
 std::vector<Item> consensus_items();
 std::vector<Item> privacy_items();

@@ -107,6 +107,16 @@ Findings printed_numbers(Laboratory& /*laboratory*/) {
   return found;
 }
 
+Panel index_panel(Laboratory& laboratory, const std::vector<std::string>& lanes) {
+  Panel panel{"confidentiality index by covariances, one run", {"t"}, {"CI"}, {}};
+  std::vector<std::string> signals;
+  for (const std::string& lane : lanes) signals.push_back("lane." + lane + ".ci");
+  const auto one = laboratory.samples(preset(kId, lanes), signals, 1);
+  for (const std::string& lane : lanes)
+    panel.series.push_back(series(lane, one->front().time, one->front().of("lane." + lane + ".ci"), "line", 1));
+  return panel;
+}
+
 Findings index(Laboratory& laboratory) {
   const std::vector<std::string> lanes{"two_step", "contamination", "secrecy_code_a"};
   const auto study = laboratory.campaign(preset(kId, lanes));
@@ -139,13 +149,7 @@ Findings index(Laboratory& laboratory) {
               pooled(*study, "two_step", "differencing"), 4, 64);
   found.claim(Reading::noted, "two-step for an eavesdropper who takes the window's mean", "infinite (a limit)",
               exact(*study, "two_step", "window_mean"), 4, 64);
-  Panel panel{"confidentiality index by covariances, one run", {"t"}, {"CI"}, {}};
-  std::vector<std::string> signals;
-  for (const std::string& lane : lanes) signals.push_back("lane." + lane + ".ci");
-  const auto one = laboratory.samples(preset(kId, lanes), signals, 1);
-  for (const std::string& lane : lanes)
-    panel.series.push_back(series(lane, one->front().time, one->front().of("lane." + lane + ".ci"), "line", 1));
-  found.panels.push_back(std::move(panel));
+  found.panels.push_back(index_panel(laboratory, lanes));
   return found;
 }
 

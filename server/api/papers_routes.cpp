@@ -69,6 +69,8 @@ void report(const PapersManager& papers, HttpResponse& response) {
   response.set_header("Content-Disposition", "attachment; filename=\"vigil-papers.html\"");
 }
 
+Json list_of(const char* what) { return {{"type", "array"}, {"items", {{"type", "object"}}}, {"description", what}}; }
+
 Json item_schema() {
   const Json number{{"type", {"number", "null"}}}, count{{"type", {"integer", "null"}}},
       text{{"type", {"string", "null"}}};
@@ -89,6 +91,10 @@ Json item_schema() {
        {"seed", count},
        {"version", text},
        {"ended", text},
+       {"zh", {{"type", "object"}, {"description", "paper, reason and rule in Chinese"}}},
+       {"scenes", list_of("runs that the figure is of: name, scenario, patch; what POST /runs takes")},
+       {"methods", list_of("id and title of the methods in them: GET /documentation/{id}")},
+       {"equations", list_of("number, says, tex, mathml; of one item alone")},
        {"figure", {{"type", {"object", "null"}}, {"description", "claims and panels; of one item alone"}}}});
 }
 
@@ -104,7 +110,8 @@ Json job_schema() {
                                     {"seed", doc::integer_schema(0, static_cast<std::int64_t>(kLargestSeed))},
                                     {"failed", failed},
                                     {"started", doc::text_schema()},
-                                    {"ended", {{"type", {"string", "null"}}}}});
+                                    {"ended", {{"type", {"string", "null"}}}},
+                                    {"taken_up", {{"type", {"object", "null"}}}}});
   schema["type"] = {"object", "null"};
   return schema;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/input_error.hpp"
+#include "server/api/documentation_routes.hpp"
 #include "server/api/papers_routes.hpp"
 #include "server/api/services.hpp"
 #include "server/papers/manager.hpp"
@@ -39,6 +40,11 @@ std::string log_name(const std::string& db) {
   return std::string(host) + ":" + std::filesystem::weakly_canonical(db, error).string();
 }
 
+ManagerOptions heard(ManagerOptions options, Outside& outside) {
+  options.announcer = &outside.announcer();
+  return options;
+}
+
 Route no_page_route() {
   Route route;
   route.method = "GET";
@@ -62,7 +68,8 @@ struct Server::State {
         reader(options.db),
         hub(options.hub),
         broker(connect(options.nats)),
-        runs(log, reader, hub, options.runs),
+        outside({options.mqtt, broker.get(), options.nats_prefix}, reader),
+        runs(log, reader, hub, heard(options.runs, outside)),
         campaigns(log, reader, hub, runs, {broker.get(), log_name(options.db)}),
         papers(log, reader, runs),
         services{log,
@@ -74,9 +81,11 @@ struct Server::State {
                  [this]() -> const Routes& { return front->routes(); },
                  [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
                  options.front.tokens.required(),
-                 broker.get()} {
+                 broker.get(),
+                 &outside} {
     Routes routes = make_routes(services);
     add_papers_routes(routes, papers);
+    add_documentation_routes(routes);
     if (files.empty()) routes.add(no_page_route());
     front = std::make_unique<Front>(options.front, std::move(routes), hub, std::move(files));
   }
@@ -87,6 +96,7 @@ struct Server::State {
   LogReader reader;
   Hub hub;
   std::unique_ptr<Broker> broker;
+  Outside outside;
   std::atomic<RunId> demo{-1};
   RunManager runs;
   CampaignManager campaigns;
@@ -100,7 +110,9 @@ Server::~Server() { stop(); }
 
 void Server::start() {
   state_->front->start();
+  state_->outside.listen(state_->runs);
   state_->campaigns.take_up();
+  state_->papers.take_up();
   if (!state_->options.demo) return;
   try {
     state_->demo = start_demo(state_->runs, state_->log, state_->reader);
@@ -115,6 +127,7 @@ int Server::port() const { return state_->front->port(); }
 void Server::stop() {
   if (!state_) return;
   // Runs first: their viewers hear how they ended. Handlers that wait for a run are let go by its end.
+  state_->outside.stop();
   state_->papers.stop();
   state_->campaigns.stop();
   state_->runs.stop();

@@ -66,7 +66,10 @@ int carry_out(PapersCommand& command) {
   }
   if (!command.json.empty()) {
     Json items = Json::array();
-    for (const papers::Measured& one : measured) items.push_back(to_json(*one.item, one.findings));
+    for (const papers::Measured& one : measured) {
+      items.push_back(to_json(*one.item, one.findings));
+      items.back().update(papers::basis_json(*one.item));
+    }
     write_text(command.json, items.dump(2) + "\n");
   }
   if (!command.html.empty()) {

@@ -42,6 +42,9 @@ Json described(const Item& item) {
             {"rule", item.rule}, {"reason", item.reason}};
   for (const char* member : {"paper", "ours", "se", "verdict", "runs", "seed", "version", "ended"})
     json[member] = nullptr;
+  json["zh"] = words_json(item, nullptr);
+  const Json basis = basis_json(item);
+  for (const char* member : {"scenes", "methods"}) json[member] = basis.at(member);
   return json;
 }
 
@@ -50,6 +53,15 @@ Json described(const Item& item, const Json& kept) {
   for (auto& [member, value] : json.items()) {
     if (value.is_null() && kept.contains(member)) value = kept.at(member);
   }
+  json["zh"] = words_json(item, json.at("paper"));
+  return json;
+}
+
+Json detailed(const Item& item, const Json& kept) {
+  Json json = described(item, kept);
+  json["equations"] = basis_json(item).at("equations");
+  json["figure"] = kept.value("figure", Json());
+  if (json["figure"].is_object()) add_chinese(json["figure"]);
   return json;
 }
 

@@ -24,8 +24,26 @@ using namespace std::chrono_literals;
 constexpr int kNice = 5;         // live runs and the page come first
 constexpr auto kPatience = 30s;  // for runs that are under way to end
 constexpr auto kSolverLook = 50ms;
+constexpr std::int64_t kMostRestarts = 5;  // without an item done
+
+constexpr const char* kJob = "papers/job";
 
 std::string setting_of(const std::string& key) { return "papers/" + key; }
+
+/// What is left of a job that was not over; empty where there is nothing, or nothing that can be read.
+std::optional<PapersOrder> left_of(const Json& job) {
+  if (!job.is_object() || job.value("state", "") != "running") return std::nullopt;
+  const auto& keys = job.at("items");
+  PapersOrder order;
+  order.runs = job.at("runs").get<std::int64_t>();
+  order.first_seed = job.at("seed").get<std::uint64_t>();
+  for (std::size_t i = job.at("done").get<std::size_t>(); i < keys.size(); ++i) {
+    for (const papers::Item& item : papers::items()) {
+      if (keys[i] == item.key) order.items.push_back(&item);
+    }
+  }
+  return order;
+}
 
 std::string now() {
   const auto time = std::chrono::system_clock::now().time_since_epoch();
@@ -39,6 +57,7 @@ int all_threads() { return static_cast<int>(std::max(1u, std::thread::hardware_c
 PapersManager::PapersManager(LogWriter& log, const LogReader& reader, RunManager& runs)
     : log_(log), reader_(reader), runs_(runs) {
   for (const papers::Item& item : papers::items()) newest_[item.key] = papers::described(item, kept(item));
+  job_ = reader_.setting(kJob);
 }
 
 PapersManager::~PapersManager() { stop(); }
@@ -54,16 +73,63 @@ void PapersManager::start(PapersOrder order) {
   job_ = {{"state", "running"},       {"items", std::move(keys)}, {"done", 0},
           {"current", nullptr},       {"runs_made", 0},           {"runs", order.runs},
           {"seed", order.first_seed}, {"failed", Json::array()},  {"started", now()},
-          {"ended", nullptr}};
+          {"ended", nullptr},         {"taken_up", nullptr}};
+  begin(std::move(order));
+}
+
+void PapersManager::take_up() {
+  const std::lock_guard lock(mutex_);
+  if (stopping_ || running_) return;
+  try {
+    if (!count_restart()) return;
+    std::optional<PapersOrder> order = left_of(job_);
+    spdlog::info("the job of the papers goes on with {} items", order->items.size());
+    begin(std::move(*order));
+  } catch (const std::exception& error) {
+    spdlog::warn("the job of the papers cannot be taken up: {}", error.what());
+    job_ = nullptr;
+  }
+}
+
+/// Under the lock; false where no job was left. An item under which the server ended again and again is left out.
+bool PapersManager::count_restart() {
+  const std::optional<PapersOrder> order = left_of(job_);
+  if (!order) return false;
+  Json& before = job_["taken_up"];
+  const bool same = before.is_object() && before.at("done") == job_.at("done");
+  const std::int64_t times = same ? before.at("times").get<std::int64_t>() + 1 : 1;
+  if (times > kMostRestarts && !order->items.empty()) {
+    job_["failed"].push_back(
+        {{"key", order->items.front()->key}, {"error", "The server ended each time it was being run."}});
+    job_["done"] = job_.at("done").get<std::int64_t>() + 1;
+  }
+  job_["taken_up"] = {{"when", now()}, {"done", job_.at("done")}, {"times", times > kMostRestarts ? 0 : times}};
+  return true;
+}
+
+/// Under the lock.
+void PapersManager::begin(PapersOrder order) {
+  remember();
   running_ = true;
   stop_ = false;
+  cancelled_ = false;
   worker_ = std::thread([this, order = std::move(order)] { work(order); });
+}
+
+/// Under the lock. A log that cannot be written keeps nobody from running items.
+void PapersManager::remember() {
+  try {
+    log_.set_setting(kJob, job_);
+  } catch (const std::exception& error) {
+    spdlog::warn("the job of the papers is not in the log: {}", error.what());
+  }
 }
 
 void PapersManager::cancel() {
   std::unique_lock lock(mutex_);
   if (!running_) return;
   stop_ = true;
+  cancelled_ = true;
   changed_.notify_all();
   if (!changed_.wait_for(lock, kPatience, [this] { return !running_; }))
     throw RunRefusal(RunRefusal::Kind::busy, "The job's runs did not end in time; it ends with them.");
@@ -91,12 +157,7 @@ Json PapersManager::items() const {
   return list;
 }
 
-Json PapersManager::item(const papers::Item& item) const {
-  const Json whole = kept(item);
-  Json json = papers::described(item, whole);
-  json["figure"] = whole.contains("figure") ? whole.at("figure") : Json();
-  return json;
-}
+Json PapersManager::item(const papers::Item& item) const { return papers::detailed(item, kept(item)); }
 
 std::string PapersManager::report() const {
   std::vector<papers::Measured> measured;
@@ -121,9 +182,12 @@ Json PapersManager::kept(const papers::Item& item) const {
 void PapersManager::work(const PapersOrder& order) {
   const std::string state = carry_out(order);
   const std::lock_guard lock(mutex_);
-  job_["state"] = state;
   job_["current"] = nullptr;
-  job_["ended"] = now();
+  if (!stopping_ || cancelled_ || state == "finished") {
+    job_["state"] = state;
+    job_["ended"] = now();
+    remember();
+  }
   running_ = false;
   changed_.notify_all();
 }
@@ -137,16 +201,18 @@ std::string PapersManager::carry_out(const PapersOrder& order) {
   options.nice = kNice;
   options.stop = &stop_;
   options.gains = [this](const DesignTask& task) { return gains(task); };
-  options.progress = [this](std::int64_t made) {
+  std::int64_t before = 0;  // of a job that is taken up
+  {
     const std::lock_guard lock(mutex_);
-    job_["runs_made"] = made;
+    before = job_["runs_made"].get<std::int64_t>();
+  }
+  options.progress = [this, before](std::int64_t made) {
+    const std::lock_guard lock(mutex_);
+    job_["runs_made"] = before + made;
   };
   ThreadedLaboratory laboratory(options);
   for (const papers::Item* item : order.items) {
-    {
-      const std::lock_guard lock(mutex_);
-      job_["current"] = item->key;
-    }
+    at(item->key);
     try {
       if (stop_) return "cancelled";
       keep(*item, order, item->measure(laboratory));
@@ -155,10 +221,21 @@ std::string PapersManager::carry_out(const PapersOrder& order) {
     } catch (const std::exception& error) {
       fail(item->key, error.what());
     }
-    const std::lock_guard lock(mutex_);
-    job_["done"] = job_["done"].get<std::int64_t>() + 1;
+    over();
   }
   return "finished";
+}
+
+void PapersManager::at(const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  job_["current"] = key;
+}
+
+/// One item more: what a next start does not run again.
+void PapersManager::over() {
+  const std::lock_guard lock(mutex_);
+  job_["done"] = job_["done"].get<std::int64_t>() + 1;
+  remember();
 }
 
 void PapersManager::keep(const papers::Item& item, const PapersOrder& order, const papers::Findings& findings) {

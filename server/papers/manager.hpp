@@ -37,10 +37,13 @@ class PapersManager {
 
   /// Throws RunRefusal: one goes on (state), or the server is stopping (full).
   void start(PapersOrder order);
+  /// Goes on with the job that the log says was not over when the server ended, killed or not: the items that it had
+  /// done stay, the one under way begins anew. Nothing where there is none.
+  void take_up();
   /// Returns once no job goes on. Items that were done before stay. Throws RunRefusal (busy) where runs that are under
   /// way do not end in time.
   void cancel();
-  /// The job that goes on, or the last one since the server's start; null where there was none.
+  /// The job that goes on, or the last one; null where there was none.
   Json job() const;
   /// Every item without its figure: papers::described().
   Json items() const;
@@ -48,16 +51,21 @@ class PapersManager {
   Json item(const papers::Item& item) const;
   /// The newest results as a page of their own; empty where there are none.
   std::string report() const;
-  /// Cancels, and takes no more.
+  /// Ends the runs under way and takes no more. A job that goes on is taken up at the next start.
   void stop();
 
  private:
+  bool count_restart();
+  void begin(PapersOrder order);
   void work(const PapersOrder& order);
+  void remember();
   std::string carry_out(const PapersOrder& order);
   void keep(const papers::Item& item, const PapersOrder& order, const papers::Findings& findings);
   void fail(const std::string& key, const std::string& error);
   Json gains(const DesignTask& task);
   Json kept(const papers::Item& item) const;
+  void at(const std::string& key);
+  void over();
 
   LogWriter& log_;
   const LogReader& reader_;
@@ -67,7 +75,7 @@ class PapersManager {
   std::condition_variable changed_;
   std::map<std::string, Json> newest_;  ///< by key, as described()
   Json job_;
-  bool running_ = false, stopping_ = false;
+  bool running_ = false, stopping_ = false, cancelled_ = false;
   std::atomic<bool> stop_{false};
   std::thread worker_;
 };

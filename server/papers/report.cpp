@@ -4,7 +4,9 @@
 #include <map>
 
 #include "engine/core/describe.hpp"
+#include "engine/papers/chinese.hpp"
 #include "server/cli/report.hpp"
+#include "server/papers/report_basis.hpp"
 #include "server/papers/scale.hpp"
 #include "server/papers/svg.hpp"
 
@@ -20,6 +22,9 @@ td.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}.meta
 .panels{display:flex;flex-wrap:wrap;gap:.8rem}figure{margin:0;flex:1 1 440px;max-width:480px}svg{width:100%;height:auto;font-size:10.5px;fill:#5a6473}
 svg .title{fill:#1c2330}.grid{stroke:#e8ebf0;stroke-width:1}path,line{fill:none;stroke-width:1.3}path.dashed{stroke-dasharray:5 3}
 .legend span{margin-right:.9rem}.legend i{display:inline-block;width:.8rem;height:.2rem;margin:0 .3rem .2rem 0}.edge{stroke:#b4bcc8}
+h3{font-size:1rem;margin:1.6rem 0 .2rem}code{font-size:.92em;overflow-wrap:anywhere}summary{cursor:pointer;color:#5a6473;font-size:12.5px}
+.equation{overflow-x:auto;margin:.5rem 0}.equation p{margin:0;font-size:13px}math{font-size:1.05em;padding:.15rem 0}
+.tex-aligned mtd:nth-child(odd){text-align:right}.tex-aligned mtd:nth-child(even),.tex-cases mtd{text-align:left}
 )";
 
 /// Colours that differ in lightness, too.
@@ -75,6 +80,13 @@ std::string claim_row(const Claim& claim) {
          band(claim) + "</td><td>" + (claim.holds() ? "holds" : "does not hold") + "</td></tr>";
 }
 
+std::string chinese_html(const Item& item) {
+  const ItemWords* words = chinese_words(item.key);
+  if (words == nullptr) return "";
+  return "<p lang=\"zh-CN\">" + marked(std::string(words->reason)) + "</p><p class=\"meta\" lang=\"zh-CN\">" +
+         marked(std::string(words->rule)) + "</p>";
+}
+
 std::string item_html(const Measured& one) {
   const Item& item = *one.item;
   const std::string key = escaped(item.key);
@@ -82,13 +94,13 @@ std::string item_html(const Measured& one) {
                      escaped(item.title.zh) + " · specification: " + escaped(item.spec) + " · scenario <code>" +
                      escaped(item.scenario) + "</code> · " + std::to_string(one.findings.runs) + " runs" +
                      (one.made.empty() ? "" : " · " + escaped(one.made)) + "</p><p>" +
-                     verdict_html(verdict_of(one.findings)) + ". " + escaped(item.reason) + "</p>";
-  html += "<p class=\"meta\">" + escaped(item.rule) + "</p><table><tr><th>reading</th><th>what</th><th>paper</th>" +
+                     verdict_html(verdict_of(one.findings)) + ". " + marked(item.reason) + "</p>" + chinese_html(item);
+  html += "<p class=\"meta\">" + marked(item.rule) + "</p><table><tr><th>reading</th><th>what</th><th>paper</th>" +
           "<th>ours</th><th>band</th><th></th></tr>";
   for (const Claim& claim : one.findings.claims) html += claim_row(claim);
   html += "</table><div class=\"panels\">";
   for (const Panel& panel : one.findings.panels) html += svg_of(panel);
-  return html + "</div>\n";
+  return html + "</div>" + basis_html(item) + "\n";
 }
 
 }  // namespace
@@ -112,8 +124,12 @@ std::string report_html(const std::vector<Measured>& measured, const std::string
             with_error(head.ours) + "</td><td>" + verdict_html(verdict_of(one.findings)) + "</td></tr>";
   }
   html += "</table>\n";
-  for (const Measured& one : measured) html += item_html(one);
-  return html + "</body></html>\n";
+  std::vector<const Item*> items;
+  for (const Measured& one : measured) {
+    html += item_html(one);
+    items.push_back(one.item);
+  }
+  return html + methods_html(items) + "</body></html>\n";
 }
 
 std::string report_text(const std::vector<Measured>& measured) {

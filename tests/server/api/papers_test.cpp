@@ -88,7 +88,7 @@ TEST_F(PapersApi, ARestartKeepsResultsAndANewerOneReplacesThem) {
   begin();
   EXPECT_EQ(of("004/fig2-3").dump(), first.dump());
   EXPECT_EQ(client_->get(std::string(kPath) + "/004/fig2-3").json.at("figure").dump(), figure.dump());
-  EXPECT_TRUE(all().at("job").is_null());
+  EXPECT_EQ(all().at("job").at("state"), "finished") << "what is over is not run again";
   run({{"only", {"004/fig2-3"}}, {"runs", 3}, {"seed", 2}});
   EXPECT_EQ(of("004/fig2-3").at("seed"), 2);
   EXPECT_NE(of("004/fig2-3").at("ours"), first.at("ours"));
@@ -127,6 +127,51 @@ TEST_F(PapersApi, AServerThatEndsDoesNotWaitForTheJob) {
   server_.reset();
   begin();
   EXPECT_TRUE(of("003/fig5").at("verdict").is_null()) << "half an item is none";
+}
+
+TEST_F(PapersApi, AJobGoesOnAfterARestart) {
+  ASSERT_EQ(client_->post(kPath, {{"only", {"000/fig1", "003/fig5"}}, {"runs", 300}, {"seed", 5}}).status, 202);
+  ASSERT_TRUE(eventually([&] { return all().at("job").at("done") == 1 && all().at("job").at("runs_made") > 0; }));
+  const Json first = of("000/fig1");
+  server_.reset();
+  begin();
+  EXPECT_EQ(all().at("job").at("state"), "running");
+  EXPECT_EQ(all().at("job").at("taken_up").at("done"), 1);
+  ASSERT_TRUE(ends());
+  const Json job = all().at("job");
+  EXPECT_EQ(job.at("state"), "finished");
+  EXPECT_EQ(job.at("done"), 2);
+  EXPECT_TRUE(job.at("failed").empty()) << job;
+  EXPECT_EQ(of("000/fig1").dump(), first.dump()) << "what was done stays";
+  EXPECT_EQ(of("003/fig5").at("seed"), 5);
+  EXPECT_EQ(of("003/fig5").at("runs"), 300);
+}
+
+TEST_F(PapersApi, ACancelledJobDoesNotGoOnAfterARestart) {
+  ASSERT_EQ(client_->post(kPath, long_one()).status, 202);
+  ASSERT_TRUE(eventually([&] { return all().at("job").at("runs_made") > 0; }));
+  EXPECT_EQ(client_->remove(std::string(kPath) + "/job").status, 204);
+  server_.reset();
+  begin();
+  EXPECT_EQ(all().at("job").at("state"), "cancelled");
+}
+
+TEST_F(PapersApi, AnItemLeadsToItsRunsEquationsAndMethods) {
+  const Json whole = client_->get(std::string(kPath) + "/000/fig2").json;
+  EXPECT_EQ(whole.at("zh").at("reason"), papers::words_json(item("000/fig2"), nullptr).at("reason"));
+  ASSERT_EQ(whole.at("scenes").size(), 1U);
+  const Json& scene = whole.at("scenes")[0];
+  const Answer started = client_->post(
+      "/api/v1/runs", {{"scenario", scene.at("scenario")}, {"patch", scene.at("patch")}, {"pace", "max"}, {"seed", 1}});
+  ASSERT_EQ(started.status, 201) << started.body;
+  EXPECT_NE(whole.at("equations")[0].at("mathml").get<std::string>().find("<math"), std::string::npos);
+  for (const Json& method : whole.at("methods")) {
+    const Json page = client_->get("/api/v1/documentation/" + method.at("id").get<std::string>()).json;
+    EXPECT_EQ(page.at("title"), method.at("title"));
+    for (const char* part : {"equations", "steps", "parameters"}) EXPECT_FALSE(page.at(part).empty()) << part;
+  }
+  EXPECT_GT(client_->get("/api/v1/documentation").json.at("items").size(), 25U);
+  expect_problem(client_->get("/api/v1/documentation/nosuch"), 404);
 }
 
 TEST_F(PapersApi, TheReportIsThatOfTheCommand) {

@@ -110,12 +110,23 @@ TEST(Papers, TheObserversVerdictsAreTheSpecifications) {
   expect_verdicts({"002/fig2", "002/fig3", "002/fig5", "002/fig6", "002/fig7", "002/fig8"}, 2, 1);
 }
 
-TEST(Papers, AllVerdictsAreTheSpecifications) {
+/// One source from one seed, so that none outlasts the limit that every test has.
+class AllPapers : public testing::TestWithParam<std::tuple<const char*, std::uint64_t>> {};
+
+TEST_P(AllPapers, VerdictsAreTheSpecifications) {
   if (std::getenv("VIGIL_FULL") == nullptr) GTEST_SKIP() << "VIGIL_FULL is not set";
+  const auto [source, seed] = GetParam();
   std::vector<std::string> keys;
-  for (const Item& one : items()) keys.push_back(one.key);
-  for (const std::uint64_t seed : {1U, 2001U}) expect_verdicts(keys, 200, seed);
+  for (const Item& one : items()) {
+    if (one.key.starts_with(source)) keys.push_back(one.key);
+  }
+  ASSERT_FALSE(keys.empty());
+  expect_verdicts(keys, 200, seed);
 }
+
+INSTANTIATE_TEST_SUITE_P(Papers, AllPapers,
+                         testing::Combine(testing::Values("000/", "001/", "002/", "003/", "004/"),
+                                          testing::Values(std::uint64_t{1}, std::uint64_t{2001})));
 
 TEST(Papers, AChangedSeedChangesTheNumbersAndThreadsDoNot) {
   const auto measured = [](std::uint64_t seed, int threads) {
@@ -159,7 +170,9 @@ TEST(Papers, TheReportHoldsEveryItemAndNothingOfTheWebs) {
     EXPECT_NE(html.find("id=\"" + one.item->key + "\""), std::string::npos);
     EXPECT_NE(html.find(one.item->title.zh), std::string::npos);
   }
-  EXPECT_NE(html.find("<svg"), std::string::npos);
+  for (const char* part :
+       {"<svg", "<math display=\"block\">", "id=\"method-consensus_ekf\"", "href=\"#method-fusion\"", "lang=\"zh-CN\""})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
   for (const char* absent : {"http", "<script", "nan", "inf\"", "src="})
     EXPECT_EQ(html.find(absent), std::string::npos) << absent;
 }

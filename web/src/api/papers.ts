@@ -3,10 +3,32 @@ import { address, get, post, remove } from './client';
 
 export type Verdict = 'reproduced' | 'reproduced after correction' | 'not reproduced';
 
+export interface Words {
+  en: string;
+  zh: string;
+}
+
+/** A run that an item's figure is of: what POST /runs takes. */
+export interface Scene {
+  name: Words;
+  scenario: string;
+  patch: Record<string, unknown>;
+}
+
+export interface EquationItem {
+  id: string;
+  /** As the source numbers it; empty where it does not. */
+  number: string;
+  says: Words;
+  tex: string;
+  /** A `<math>` of the server's own making. */
+  mathml: string;
+}
+
 export interface PaperItem {
   /** Source and figure: 000/fig4. */
   key: string;
-  title: { en: string; zh: string };
+  title: Words;
   spec: string;
   scenario: string;
   rule: string;
@@ -20,6 +42,10 @@ export interface PaperItem {
   seed: number | null;
   version: string | null;
   ended: string | null;
+  /** The same in Chinese. */
+  zh: { paper: number | string | null; reason: string; rule: string };
+  scenes: Scene[];
+  methods: { id: string; title: Words }[];
 }
 
 export interface Claim {
@@ -32,6 +58,7 @@ export interface Claim {
   low: number | null;
   high: number | null;
   holds: boolean;
+  zh: { what: string; paper: number | string | null };
 }
 
 export type SeriesStyle = 'line' | 'dashed' | 'steps' | 'stems' | 'points' | 'edge';
@@ -53,9 +80,11 @@ export interface FigurePanel {
   x: PanelAxis;
   y: PanelAxis;
   series: PanelSeries[];
+  zh: { title: string; x: string; y: string; names: string[] };
 }
 
 export interface PaperDetail extends PaperItem {
+  equations: EquationItem[];
   figure: { rule: string; claims: Claim[]; panels: FigurePanel[] } | null;
 }
 
@@ -72,6 +101,8 @@ export interface PapersJob {
   failed: { key: string; error: string }[];
   started: string;
   ended: string | null;
+  /** When it went on after the server had ended under it. */
+  taken_up: { when: string; done: number; times: number } | null;
 }
 
 export interface PapersList {

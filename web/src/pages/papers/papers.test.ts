@@ -1,11 +1,13 @@
 import { describe, expect, test } from 'vitest';
 import type { FigurePanel, PaperItem, PanelSeries, Verdict } from '../../api/papers';
+import { readPatch } from '../../form/share';
 import { bySource, countOf, isFew, kindOf, neighbours, readKind } from './items';
 import { frameOf, pathOf, placesOf, rowsOf, signOf, size, stemsOf } from './plot';
-import { bandText, commandOf, paperText, pieces } from './text';
+import { formOf, keyOf, orderOf } from './scenes';
+import { bandText, commandOf, paperText, pieces, withError } from './text';
 
 function item(key: string, verdict: Verdict | null): PaperItem {
-  return { key, title: { en: key, zh: key }, spec: '', scenario: '', rule: '', reason: '', paper: null, ours: null, se: null, verdict, runs: null, seed: null, version: null, ended: null };
+  return { key, title: { en: key, zh: key }, spec: '', scenario: '', rule: '', reason: '', paper: null, ours: null, se: null, verdict, runs: null, seed: null, version: null, ended: null, zh: { paper: null, reason: '', rule: '' }, scenes: [], methods: [] };
 }
 const items = [item('000/fig1', 'reproduced'), item('000/fig2', null), item('001/fig2', 'not reproduced'), item('003/fig1', 'reproduced after correction')];
 
@@ -13,7 +15,7 @@ function series(style: PanelSeries['style'], x: (number | null)[], y: (number | 
   return { name: style, style, x, y };
 }
 function panel(all: PanelSeries[], yScale: 'linear' | 'log' = 'linear'): FigurePanel {
-  return { title: 'p', x: { label: 'k', scale: 'linear' }, y: { label: 'error, m', scale: yScale }, series: all };
+  return { title: 'p', x: { label: 'k', scale: 'linear' }, y: { label: 'error, m', scale: yScale }, series: all, zh: { title: '图', x: 'k', y: '误差', names: all.map((one) => one.name) } };
 }
 
 describe('items', () => {
@@ -89,10 +91,34 @@ describe('a panel', () => {
   });
 });
 
+describe('the run of a figure', () => {
+  const place = { key: '000/fig2', scenes: [{ name: { en: 'wide', zh: '宽' }, scenario: 'consensus', patch: { lanes: { clean: null }, network: { graph: 'ring' } } }] };
+
+  test('is asked for with the figure’s own patch, and as the same one each time', () => {
+    expect(orderOf(place, 0, 7)).toEqual({ scenario: 'consensus', patch: place.scenes[0]!.patch, seed: 7, pace: 'max', tags: ['papers', '000/fig2'], note: '000/fig2: wide' });
+    expect(keyOf('000/fig2', 0, 7, '1.0')).toMatch(/^[\x20-\x7e]{1,255}$/);
+    expect(keyOf('000/fig2', 0, 7, '1.0')).not.toBe(keyOf('000/fig2', 0, 8, '1.0'));
+  });
+
+  test('has a form with the same changes', () => {
+    const form = new URL(formOf(place, 0, 7), 'http://here');
+    expect(form.pathname).toBe('/scenarios/consensus');
+    expect(form.searchParams.get('seed')).toBe('7');
+    expect(readPatch(form.searchParams.get('patch'))).toEqual(place.scenes[0]!.patch);
+  });
+});
+
 describe('texts', () => {
   test('with names in them', () => {
     expect(pieces('the guard `clip` is one, `a` too')).toEqual(['the guard ', 'clip', ' is one, ', 'a', ' too']);
     expect(pieces('an odd ` sign')).toEqual(['an odd ` sign']);
+  });
+
+  test('of numbers with their errors; rounding is none', () => {
+    expect(withError({ ours: 2.5, se: 0.25 })).toBe('2.50\u00a0± 0.25');
+    expect(withError({ ours: 0.9933, se: 8.9e-17 })).toBe('0.993\u00a0± 0');
+    expect(withError({ ours: 0.9933, se: null })).toBe('0.993');
+    expect(withError({ ours: null, se: null })).toBe('–');
   });
 
   test('of bands and numbers', () => {

@@ -1,6 +1,7 @@
 /// Texts that more than one part of the page shows.
 import type { Claim } from '../../api/papers';
 import { formatNumber, missing } from '../../i18n/format.svelte';
+import { localised } from '../../i18n/i18n.svelte';
 import { t } from './words';
 
 const sources = ['000', '001', '002', '003', '004'] as const;
@@ -8,6 +9,16 @@ const sources = ['000', '001', '002', '003', '004'] as const;
 export function sourceTitle(source: string): string {
   const known = sources.find((one) => one === source);
   return known ? t(`source_${known}`) : t('source_other', { source });
+}
+
+/** What an item or a claim says of its paper, in the page's language. */
+export const paperOf = ({ paper, zh }: { paper: number | string | null; zh: { paper: number | string | null } }): string => paperText(typeof paper === 'string' && typeof zh.paper === 'string' ? localised({ en: paper, zh: zh.paper }) : paper);
+
+/** A number and its standard error; what rounding left of an error is none. */
+export function withError({ ours, se }: Pick<Claim, 'ours' | 'se'>, digits = 3): string {
+  const text = formatNumber(ours, digits);
+  if (ours === null || se === null) return text;
+  return `${text}\u00a0± ${formatNumber(se < 1e-12 * Math.abs(ours) ? 0 : se, 2)}`;
 }
 
 /** A number as printed, or what the paper says. */
