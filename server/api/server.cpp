@@ -40,11 +40,6 @@ std::string log_name(const std::string& db) {
   return std::string(host) + ":" + std::filesystem::weakly_canonical(db, error).string();
 }
 
-ManagerOptions heard(ManagerOptions options, Outside& outside) {
-  options.announcer = &outside.announcer();
-  return options;
-}
-
 Route no_page_route() {
   Route route;
   route.method = "GET";
@@ -68,8 +63,7 @@ struct Server::State {
         reader(options.db),
         hub(options.hub),
         broker(connect(options.nats)),
-        outside({options.mqtt, broker.get(), options.nats_prefix}, reader),
-        runs(log, reader, hub, heard(options.runs, outside)),
+        runs(log, reader, hub, options.runs),
         campaigns(log, reader, hub, runs, {broker.get(), log_name(options.db)}),
         papers(log, reader, runs),
         services{log,
@@ -81,8 +75,7 @@ struct Server::State {
                  [this]() -> const Routes& { return front->routes(); },
                  [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
                  options.front.tokens.required(),
-                 broker.get(),
-                 &outside} {
+                 broker.get()} {
     Routes routes = make_routes(services);
     add_papers_routes(routes, papers);
     add_documentation_routes(routes);
@@ -96,7 +89,6 @@ struct Server::State {
   LogReader reader;
   Hub hub;
   std::unique_ptr<Broker> broker;
-  Outside outside;
   std::atomic<RunId> demo{-1};
   RunManager runs;
   CampaignManager campaigns;
@@ -110,7 +102,6 @@ Server::~Server() { stop(); }
 
 void Server::start() {
   state_->front->start();
-  state_->outside.listen(state_->runs);
   state_->campaigns.take_up();
   state_->papers.take_up();
   if (!state_->options.demo) return;
@@ -127,7 +118,6 @@ int Server::port() const { return state_->front->port(); }
 void Server::stop() {
   if (!state_) return;
   // Runs first: their viewers hear how they ended. Handlers that wait for a run are let go by its end.
-  state_->outside.stop();
   state_->papers.stop();
   state_->campaigns.stop();
   state_->runs.stop();
