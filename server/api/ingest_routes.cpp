@@ -61,6 +61,11 @@ Json push_doc() {
       .what();
 }
 
+void plant(const Services& services, HttpResponse& response) {
+  const Json status = services.outside->plant();
+  response.json(status.is_null() ? Json{{"broker", nullptr}} : status);
+}
+
 }  // namespace
 
 void add_ingest_routes(Routes& routes, Services& services) {
@@ -70,6 +75,13 @@ void add_ingest_routes(Routes& routes, Services& services) {
   post.body_types = {"application/x-ndjson", "application/json", "text/csv"};
   post.body_limit = kRowsLimit;
   routes.add(std::move(post));
+  routes.add(make_route(
+      "GET", "/api/v1/ingest", [&services](const auto&, auto& r) { plant(services, r); },
+      "What the broker's topics brought",
+      doc::Operation()
+          .answer(200, "The broker (null: none), messages that came, were taken, refused, or for no run.",
+                  {{"type", "object"}})
+          .what()));
   routes.add(make_route(
       "GET", "/api/v1/ingest/{run}",
       [&services](const auto& q, auto& r) { r.json(fed_run(q, services)->order().feed->status()); },

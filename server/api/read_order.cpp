@@ -31,6 +31,8 @@ void read_input(const Json& input, Services& services, RunOrder& order) {
   if (input == "simulate") return;
   if (is_ingest(input)) {
     order.feed = std::make_shared<IngestFeed>(order.scenario, read_ingest(input));
+    if (order.feed->plant() && !services.outside->listens())
+      throw InputError("/input/ingest/mqtt", "no topics feed this server: it was not started with --mqtt-topic");
     return;
   }
   if (!input.is_object() || input.size() != 1 || !input.contains("trace")) {

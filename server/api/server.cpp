@@ -40,6 +40,11 @@ std::string log_name(const std::string& db) {
   return std::string(host) + ":" + std::filesystem::weakly_canonical(db, error).string();
 }
 
+ManagerOptions heard(ManagerOptions options, Outside& outside) {
+  options.announcer = &outside.announcer();
+  return options;
+}
+
 Route no_page_route() {
   Route route;
   route.method = "GET";
@@ -63,7 +68,8 @@ struct Server::State {
         reader(options.db),
         hub(options.hub),
         broker(connect(options.nats)),
-        runs(log, reader, hub, options.runs),
+        outside({options.mqtt, broker.get(), options.nats_prefix}, reader),
+        runs(log, reader, hub, heard(options.runs, outside)),
         campaigns(log, reader, hub, runs, {broker.get(), log_name(options.db)}),
         papers(log, reader, runs),
         services{log,
@@ -75,7 +81,8 @@ struct Server::State {
                  [this]() -> const Routes& { return front->routes(); },
                  [this] { return demo.load() < 0 ? std::nullopt : std::optional<RunId>(demo.load()); },
                  options.front.tokens.required(),
-                 broker.get()} {
+                 broker.get(),
+                 &outside} {
     Routes routes = make_routes(services);
     add_papers_routes(routes, papers);
     add_documentation_routes(routes);
@@ -89,6 +96,7 @@ struct Server::State {
   LogReader reader;
   Hub hub;
   std::unique_ptr<Broker> broker;
+  Outside outside;
   std::atomic<RunId> demo{-1};
   RunManager runs;
   CampaignManager campaigns;
@@ -102,6 +110,7 @@ Server::~Server() { stop(); }
 
 void Server::start() {
   state_->front->start();
+  state_->outside.listen(state_->runs);
   state_->campaigns.take_up();
   state_->papers.take_up();
   if (!state_->options.demo) return;
@@ -118,6 +127,7 @@ int Server::port() const { return state_->front->port(); }
 void Server::stop() {
   if (!state_) return;
   // Runs first: their viewers hear how they ended. Handlers that wait for a run are let go by its end.
+  state_->outside.stop();
   state_->papers.stop();
   state_->campaigns.stop();
   state_->runs.stop();

@@ -11,6 +11,7 @@
 #include "server/crew/broker.hpp"
 #include "server/front/front.hpp"
 #include "server/hub/hub.hpp"
+#include "server/plant/outside.hpp"
 #include "server/runs/manager.hpp"
 
 namespace vigil {
@@ -22,6 +23,8 @@ struct ServerOptions {
   LogOptions log;
   std::string db = "vigil.db";
   NatsOptions nats;                          ///< an empty URL: no broker
+  std::optional<MqttOptions> mqtt;           ///< empty: no broker
+  std::string nats_prefix = "vigil";         ///< of the subjects that alarms go out under
   std::optional<std::filesystem::path> web;  ///< the page's files; empty: a plain page says how to build them
   bool demo = true;
 };

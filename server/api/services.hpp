@@ -10,6 +10,7 @@
 #include "server/campaigns/manager.hpp"
 #include "server/front/front.hpp"
 #include "server/hub/hub.hpp"
+#include "server/plant/outside.hpp"
 #include "server/runs/manager.hpp"
 
 namespace vigil {
@@ -26,6 +27,7 @@ struct Services {
   std::function<std::optional<RunId>()> demo;  ///< the demo run, if one was started
   bool auth = false;                           ///< a token is asked for
   const Broker* broker = nullptr;              ///< NATS; null: none
+  const Outside* outside = nullptr;            ///< topics that feed runs, sinks of alarms
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 

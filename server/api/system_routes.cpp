@@ -25,6 +25,8 @@ Json server_json(const Services& services) {
   info["demo"] = demo ? Json(std::to_string(*demo)) : Json();
   info["auth"] = services.auth;
   info["nats"] = services.broker != nullptr ? Json{{"connected", services.broker->connected()}} : Json();
+  info["alarms"] = services.outside->alarms();
+  info["mqtt"] = services.outside->listens() ? services.outside->plant() : Json();
   return info;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/scenario/scenario.hpp"
 #include "server/api/server.hpp"
 #include "server/cli/commands.hpp"
+#include "server/cli/mqtt_options.hpp"
 #include "server/cli/nats_options.hpp"
 
 namespace vigil {
@@ -22,6 +23,7 @@ struct ServeCommand {
   bool no_demo = false;
   double keep_days = -1, keep_gib = 20;
   NatsFlags nats;
+  MqttFlags mqtt;
 };
 
 bool is_loopback(const std::string& host) {
@@ -70,6 +72,8 @@ ServerOptions settle(const ServeCommand& command) {
   options.nats = command.nats.options;
   options.nats.name = "vigil serve";
   options.nats.say = [](const std::string& sentence) { spdlog::warn("NATS: {}", sentence); };
+  options.mqtt = command.mqtt.settle(options.db);
+  options.nats_prefix = command.mqtt.prefix_of(options.db);
   options.log.keep_days = limit(command.keep_days, "--keep-days");
   options.log.keep_gib = limit(command.keep_gib, "--keep-gib");
   return options;
@@ -124,6 +128,7 @@ void add_serve(CLI::App& app, Action& action) {
       ->take_all()
       ->allow_extra_args(false);
   command->nats.add_to(*sub, "a broker's URL: campaigns can be made by its workers (vigil worker)");
+  command->mqtt.add_to(*sub);
   sub->add_flag("--no-demo", command->no_demo, "start no demo run");
   sub->add_option("--keep-days", command->keep_days, "remove finished runs older than this");
   sub->add_option("--keep-gib", command->keep_gib,

@@ -23,6 +23,7 @@ Outside::~Outside() { stop(); }
 
 void Outside::listen(const RunManager& runs) {
   if (!listens()) return;
+  const std::lock_guard lock(mutex_);
   InboxOptions options;
   options.payload = options_.mqtt->max_payload;
   inbox_ = std::make_unique<PlantInbox>(
@@ -31,11 +32,13 @@ void Outside::listen(const RunManager& runs) {
 }
 
 void Outside::stop() {
+  const std::lock_guard lock(mutex_);
   if (inbox_) inbox_->stop();
   link_.reset();
 }
 
 Json Outside::plant() const {
+  const std::lock_guard lock(mutex_);
   if (!inbox_ || !link_) return nullptr;
   Json status = inbox_->status();
   status["broker"] = link_->status();

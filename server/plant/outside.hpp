@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "db/reader.hpp"
@@ -40,6 +41,7 @@ class Outside {
  private:
   const OutsideOptions options_;
   std::unique_ptr<Announcer> announcer_;
+  mutable std::mutex mutex_;  ///< around the two below: they come and go while others ask
   std::unique_ptr<PlantInbox> inbox_;
   std::unique_ptr<PlantLink> link_;
 };
