@@ -153,6 +153,115 @@ describe('campaigns', () => {
     await view.close();
   });
 
+  test('chooses trials by a stroke along an axis and by numbers, and runs one of them', async () => {
+    const view = await openPage(browser, server);
+    const { page } = view;
+    await view.goto(`/campaigns/${grid}?metric=rmse_position`);
+    await button(page, 'Read the trials').click();
+    const plot = page.getByRole('img', { name: '36 trials over 5 axes' });
+    await plot.scrollIntoViewIfNeeded();
+    const part = figure(page, 'Parallel coordinates');
+    await part.getByText('Limits as numbers').click();
+    await part.getByLabel(`${pdos}: from`).fill('0.3');
+    await part.getByLabel(`${pdos}: from`).press('Enter');
+    await part.getByText('24 of 36 trials chosen').waitFor();
+    const lines = (await saved(page, 'CSV of Parallel coordinates')).toString().trim().split('\n').slice(1);
+    assert.equal(lines.length, 24);
+    assert.ok(lines.every((line) => Number(line.split(',')[3]) > 0.3));
+    const box = await plot.boundingBox();
+    const axis = box.x + 14 + (box.width - 28) / 4;
+    await page.mouse.move(axis, box.y + 36);
+    await page.mouse.down();
+    await page.mouse.move(axis + 2, box.y + 100, { steps: 4 });
+    await page.mouse.up();
+    await part.getByText('12 of 36 trials chosen').waitFor();
+    assert.equal(await part.getByLabel(`${tau}: to`).inputValue(), '0.02');
+    await part.getByRole('checkbox', { name: 'Only these' }).check();
+    const svg = (await saved(page, 'SVG of Parallel coordinates')).toString();
+    assert.equal(svg.match(/<path d="M/g).length, 12 + 5, 'a path a chosen trial and an axis');
+    await plot.focus();
+    await page.keyboard.press('End');
+    const spoken = await said(part.locator('.holder [role=status]'), /^Trial (\d+): /);
+    await page.keyboard.press('Enter');
+    const run = await until('the run has its page', async () => /\/live\/(\d+)$/.exec(new URL(page.url()).pathname)?.[1]);
+    const trial = await call(server, 'GET', `/campaigns/${grid}/trials/${spoken[1]}`);
+    assert.deepEqual((await runUntil(server, run, 'finished')).metrics, trial.metrics);
+    await view.close();
+  });
+
+  test('says the values under the pointer and by the keyboard, and zooms', async () => {
+    const view = await openPage(browser, server);
+    const { page } = view;
+    await view.goto(`/campaigns/${grid}?metric=rmse_position`);
+    const { metrics } = await call(server, 'GET', `/campaigns/${grid}`);
+    const part = figure(page, 'Means and quantiles');
+    const plot = part.getByRole('img');
+    await plot.scrollIntoViewIfNeeded();
+    await plot.focus();
+    await page.keyboard.press('Home');
+    const first = await said(part.locator('.holder [role=status]'), /^(\w+), 0: ([\d.e-]+) ± ([\d.e-]+); ([\d.e-]+) \[/);
+    const one = metrics.find((metric) => metric.lane === first[1] && metric.node === null && metric.name === 'rmse_position' && metric.cell === 0);
+    near(first[2], one.mean);
+    near(first[4], one.median);
+    const hits = async () => {
+      await page.keyboard.press('Home');
+      const from = await part.locator('.holder [role=status]').innerText();
+      await page.keyboard.press('End');
+      return [from, await part.locator('.holder [role=status]').innerText()];
+    };
+    const before = await hits();
+    await page.keyboard.press('+');
+    await button(page, 'Whole picture of Means and quantiles').waitFor();
+    await until('the first point is out of the picture', async () => (await hits())[0] !== before[0]);
+    await page.keyboard.press('0');
+    await until('the whole picture is back', async () => JSON.stringify(await hits()) === JSON.stringify(before));
+    const box = await plot.boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + 60);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width - 12, box.y + 250, { steps: 4 });
+    await page.mouse.up();
+    await button(page, 'Whole picture of Means and quantiles').click();
+    await button(page, 'Whole picture of Means and quantiles').waitFor({ state: 'detached' });
+    const surface = figure(page, 'Surface');
+    const place = await surface.getByRole('img').boundingBox();
+    await page.mouse.move(place.x + place.width - 80, place.y + 20);
+    const tip = await said(surface.locator('.tip'), /^0\.8, 0\.02: ([\d.e-]+) ± /);
+    near(tip[1], metrics.find((metric) => metric.lane === 'consensus' && metric.node === null && metric.name === 'rmse_position' && metric.cell === 5).mean);
+    await view.close();
+  });
+
+  test('edits tags and note', async () => {
+    const view = await openPage(browser, server);
+    const { page } = view;
+    await view.goto(`/campaigns/${replay}`);
+    await button(page, 'Add tags or a note').click();
+    await page.getByLabel('Tags, apart by commas').fill('paper, second try');
+    await page.getByRole('dialog').getByLabel('Note').fill('What for?');
+    await button(page, 'Save').click();
+    await page.getByText('second try').waitFor();
+    const { tags, note } = await call(server, 'GET', `/campaigns/${replay}`);
+    assert.deepEqual([tags, note], [['paper', 'second try'], 'What for?']);
+    await view.close();
+  });
+
+  test('gives every figure as CSV, SVG and PNG', async () => {
+    const view = await openPage(browser, server);
+    const { page } = view;
+    for (const [id, names] of [[grid, ['Means and quantiles', 'Surface', 'Single trials', 'Paired differences', 'Parallel coordinates']], [replay, ['Detection curves']]]) {
+      await view.goto(`/campaigns/${id}`);
+      if (id === grid) await button(page, 'Read the trials').click();
+      for (const name of names) {
+        await figure(page, name).getByRole('img').waitFor();
+        assert.ok((await saved(page, `CSV of ${name}`)).toString().trim().split('\n').length > 1, name);
+        const svg = (await saved(page, `SVG of ${name}`)).toString();
+        assert.match(svg, /^<svg [^]*<\/svg>\s*$/, name);
+        assert.ok(!/NaN|undefined|Infinity/.test(svg), `${name}: only numbers stand in it`);
+        assert.deepEqual([...(await saved(page, `PNG of ${name}`)).subarray(1, 4)], [...Buffer.from('PNG')], name);
+      }
+    }
+    await view.close();
+  });
+
   test('pauses, goes on, cancels and deletes', async () => {
     const id = await start({ scenario: 'consensus', runs: 100_000 });
     const view = await openPage(browser, server, { allowed: [refused(404)] });

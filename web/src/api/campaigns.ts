@@ -19,6 +19,16 @@ export interface CampaignProgress {
 /** Values by the path that is swept. */
 export type Point = Record<string, unknown>;
 
+/** Who makes the trials: the server itself, or processes that its broker reaches. */
+export type Crew = 'threads' | 'workers';
+
+export interface Worker {
+  name: string;
+  threads: number;
+  /** Why it takes no trial of this campaign. */
+  refused: string | null;
+}
+
 export interface CampaignItem {
   id: string;
   state: CampaignState;
@@ -28,6 +38,8 @@ export interface CampaignItem {
   sweep: Record<string, unknown[]>;
   points: number;
   threads: number;
+  crew: Crew;
+  workers: Worker[];
   samples: boolean;
   tags: string[];
   note: string;
@@ -154,6 +166,7 @@ export interface NewCampaign {
   first_seed?: number;
   sweep?: Record<string, unknown[]>;
   threads?: number;
+  crew?: Crew;
   samples?: boolean;
   input?: { trace: string };
   tags?: string[];

@@ -173,6 +173,8 @@ export interface ServerInfo {
   log: { bytes: number; queue: number; state: string };
   demo: string | null;
   auth: boolean;
+  /** The broker that campaigns find workers by; null where the server has none. */
+  nats?: { connected: boolean } | null;
 }
 
 /** Whether a run's readings are pushed in. */

@@ -150,13 +150,16 @@ describe('parallel coordinates', () => {
 });
 
 describe('a new campaign', () => {
-  const wish: Wish = { scenario: 'consensus', patch: {}, runs: '5', firstSeed: '2', sweep: [{ path: 'a.b', values: '0, 0.5, [1,2], "x,y", word' }, { path: '', values: '' }], samples: false, note: '', trace: '' };
+  const wish: Wish = { scenario: 'consensus', patch: {}, runs: '5', firstSeed: '2', sweep: [{ path: 'a.b', values: '0, 0.5, [1,2], "x,y", word' }, { path: '', values: '' }], samples: false, note: '', trace: '', workers: false };
 
   it('reads values as JSON, or as words', () => {
     expect(readValues(wish.sweep[0]!.values)).toEqual([0, 0.5, [1, 2], 'x,y', 'word']);
     expect(pointsOf(wish.sweep)).toBe(5);
     expect(bodyOf(wish)).toEqual({ scenario: 'consensus', runs: 5, first_seed: 2, sweep: { 'a.b': [0, 0.5, [1, 2], 'x,y', 'word'] } });
     expect(bodyOf({ ...wish, runs: '0' })).toBeUndefined();
+    expect(bodyOf({ ...wish, workers: true })?.crew).toBe('workers');
+    expect(bodyOf({ ...wish, workers: true, samples: true })).toMatchObject({ samples: true });
+    expect(bodyOf({ ...wish, workers: true, samples: true })?.crew).toBeUndefined();
   });
 
   it('says what is wrong with a sweep', () => {

@@ -1,7 +1,7 @@
 /// Thousands of lines as one picture: every pixel counts the lines that pass it, and its strength follows from the count.
 /// It is worked off in slices, so that nothing else waits.
 
-/** Steps of the table from count to strength, to each line. */
+/** Steps of the table from count to strength, a line. */
 const kSteps = 16;
 const kMostLines = 256;
 /** Lines between two looks at the clock. */
@@ -36,54 +36,48 @@ export class LineDensity {
   }
 
   #line(from: number): void {
-    for (let i = from; i < from + 2 * (this.each - 1); i += 2) {
-      const { points, ratio } = this;
-      const [ax, ay, bx, by] = [points[i]! * ratio, points[i + 1]! * ratio, points[i + 2]! * ratio, points[i + 3]! * ratio];
+    const { points, ratio, counts, width, height } = this;
+    const last = from + 2 * (this.each - 1);
+    for (let i = from; i < last; i += 2) {
+      const ax = points[i]! * ratio;
+      const ay = points[i + 1]! * ratio;
+      const bx = points[i + 2]! * ratio;
+      const by = points[i + 3]! * ratio;
       if (!(Math.abs(bx - ax) + Math.abs(by - ay) < Infinity)) continue;
-      if (Math.abs(bx - ax) >= Math.abs(by - ay)) this.#flat(ax, ay, bx, by);
-      else if (ay < by) this.#steep(ax, ay, bx, by);
-      else this.#steep(bx, by, ax, ay);
-    }
-  }
-
-  /** A count a column, shared between the two pixels it lies between. */
-  #flat(ax: number, ay: number, bx: number, by: number): void {
-    const slope = (by - ay) / (bx - ax);
-    const last = Math.min(this.width, Math.ceil(bx));
-    for (let x = Math.max(0, Math.ceil(ax)); x < last; x++) {
-      const y = ay + (x - ax) * slope;
-      const row = Math.floor(y);
-      if (row < 0 || row >= this.height - 1) continue;
-      const at = row * this.width + x;
-      this.counts[at]! += 1 - (y - row);
-      this.counts[at + this.width]! += y - row;
-    }
-  }
-
-  #steep(ax: number, ay: number, bx: number, by: number): void {
-    const slope = (bx - ax) / (by - ay);
-    const last = Math.min(this.height, Math.ceil(by));
-    for (let y = Math.max(0, Math.ceil(ay)); y < last; y++) {
-      const x = ax + (y - ay) * slope;
-      const column = Math.floor(x);
-      if (column < 0 || column >= this.width - 1) continue;
-      const at = y * this.width + column;
-      this.counts[at]! += 1 - (x - column);
-      this.counts[at + 1]! += x - column;
+      if (bx - ax >= Math.abs(by - ay)) stroke(counts, ax, ay, bx, by, width, height, 1, width);
+      else if (ay < by) stroke(counts, ay, ax, by, bx, height, width, width, 1);
+      else stroke(counts, by, bx, ay, ax, height, width, width, 1);
     }
   }
 
   /** The picture in one colour (0xAABBGGRR); n lines of this strength upon each other are 1 - (1 - alpha)^n. */
   paint(pixels: Uint32Array, abgr: number, alpha: number): void {
-    const table = strengths(alpha);
-    const plain = abgr & 0xffffff;
-    for (let i = 0; i < this.counts.length; i++) {
-      const count = this.counts[i]!;
-      pixels[i] = count === 0 ? 0 : ((table[Math.min(table.length - 1, Math.round(count * kSteps))]! << 24) | plain) >>> 0;
+    const table = strengths(alpha).map((strength) => ((strength << 24) | (abgr & 0xffffff)) >>> 0);
+    const { counts } = this;
+    const most = table.length - 1;
+    for (let i = 0; i < counts.length; i++) {
+      const count = counts[i]!;
+      if (count > 0) pixels[i] = table[Math.min(most, (count * kSteps + 0.5) | 0)]!;
     }
   }
 }
 
-function strengths(alpha: number): Uint8Array {
-  return Uint8Array.from({ length: kSteps * kMostLines + 1 }, (_, i) => Math.round(255 * (1 - (1 - alpha) ** (i / kSteps))));
+/** Counts a line once at every whole place between a and b of its longer direction, shared between the two pixels it lies between there. `next` and `beside`: steps in `counts`. */
+function stroke(counts: Float32Array, a: number, from: number, b: number, to: number, length: number, across: number, next: number, beside: number): void {
+  const slope = (to - from) / (b - a);
+  const first = Math.max(0, Math.ceil(a));
+  const last = Math.min(length, Math.ceil(b));
+  let place = from + (first - a) * slope;
+  for (let i = first; i < last; i++, place += slope) {
+    if (place < 0 || place >= across - 1) continue;
+    const whole = place | 0;
+    const share = place - whole;
+    const at = i * next + whole * beside;
+    counts[at] = counts[at]! + 1 - share;
+    counts[at + beside] = counts[at + beside]! + share;
+  }
+}
+
+function strengths(alpha: number): Uint32Array {
+  return Uint32Array.from({ length: kSteps * kMostLines + 1 }, (_, i) => Math.round(255 * (1 - (1 - alpha) ** (i / kSteps))));
 }

@@ -18,6 +18,8 @@ export interface Wish {
   samples: boolean;
   note: string;
   trace: string;
+  /** Made by the broker's workers. */
+  workers: boolean;
 }
 
 export const mostTrials = 10_000_000;
@@ -83,7 +85,8 @@ export function bodyOf(wish: Wish): NewCampaign | undefined {
     runs,
     first_seed: seed,
     ...(rows.length > 0 ? { sweep: Object.fromEntries(rows.map(({ path, values }) => [path.trim(), readValues(values)])) } : {}),
-    ...(wish.samples ? { samples: true } : {}),
+    // Samples are kept by the server's own threads only.
+    ...(wish.samples ? { samples: true } : wish.workers ? { crew: 'workers' as const } : {}),
     ...(wish.trace ? { input: { trace: wish.trace } } : {}),
     ...(wish.note ? { note: wish.note } : {}),
   };
