@@ -41,6 +41,10 @@ Json campaign_item(const CampaignRow& row, const Services& services) {
   item["created"] = to_rfc3339(row.created);
   item["ended"] = row.ended ? Json(to_rfc3339(*row.ended)) : Json();
   item["error"] = row.error.empty() ? Json() : Json(row.error);
+  if (const auto end = services.campaigns.unlogged(row.id)) {
+    item["state"] = end->state;
+    item["error"] = end->error.empty() ? Json() : Json(end->error);
+  }
   return item;
 }
 

@@ -6,6 +6,7 @@
 #include "server/api/campaign_json.hpp"
 #include "server/api/doc.hpp"
 #include "server/api/guard.hpp"
+#include "server/api/trial_command.hpp"
 #include "server/campaigns/work.hpp"
 
 namespace vigil {
@@ -96,11 +97,14 @@ void list(const Services& services, const HttpRequest& request, HttpResponse& re
   response.json(answer);
 }
 
-/// The words of `vigil run` that repeat a trial of a preset or a file.
-std::string command_of(const Json& document, const Json& sweep, std::uint64_t seed) {
-  std::string line = "vigil run " + document.value("id", "FILE.json") + " --seed " + std::to_string(seed);
-  for (const auto& [path, value] : sweep.items()) line += " --set '" + path + "=" + value.dump() + "'";
-  return line;
+/// What to type to repeat a trial; its trace is fetched from this server first.
+std::string command_of(const HttpRequest& request, const Json& campaign, const Scenario& scenario, std::uint64_t seed) {
+  if (!campaign.contains("trace")) return run_command(scenario, seed, "");
+  const std::string id = std::to_string(campaign.at("trace").get<std::int64_t>()), file = "trace-" + id + ".csv";
+  const std::string host = request.header("Host");
+  return "curl -fsS -H 'Accept: text/csv' -o " + file + " " +
+         shell_word("http://" + (host.empty() ? "localhost" : host) + "/api/v1/traces/" + id) + " && " +
+         run_command(scenario, seed, file);
 }
 
 void show(const Services& services, const HttpRequest& request, HttpResponse& response) {
@@ -123,7 +127,7 @@ void show(const Services& services, const HttpRequest& request, HttpResponse& re
   if (campaign.request.contains("trace"))
     alone["input"] = {{"trace", std::to_string(campaign.request.at("trace").get<std::int64_t>())}};
   answer["request"] = std::move(alone);
-  answer["command"] = command_of(campaign.request.at("scenario"), cell->sweep, rows.front().seed);
+  answer["command"] = command_of(request, campaign.request, scenario, rows.front().seed);
   response.json(answer);
 }
 

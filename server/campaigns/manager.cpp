@@ -22,6 +22,7 @@ constexpr int kNice = 5;                     // live runs and the page come firs
 constexpr auto kAnnounce = 1s;               // between two notes of progress in the global feed
 constexpr std::size_t kMostRemembered = 64;  // campaigns whose workers are still told
 constexpr auto kSolverLook = 50ms;
+constexpr auto kTellAgain = 1s;  // to a log whose disk was full
 
 /// Thrown where somebody wants the campaign to end before its first trial.
 struct Ended {};
@@ -96,7 +97,15 @@ CreatedCampaign CampaignManager::create(const CampaignRequest& request, const st
 void CampaignManager::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+    const auto asked = [this] { return stopping_ || !queue_.empty(); };
+    if (unlogged_.empty()) {
+      changed_.wait(lock, asked);
+    } else if (!changed_.wait_for(lock, kTellAgain, asked)) {
+      lock.unlock();
+      tell_log();
+      lock.lock();
+      continue;
+    }
     if (stopping_) break;
     current_.id = queue_.front();
     queue_.pop_front();
@@ -145,11 +154,11 @@ void CampaignManager::carry_out(std::int64_t id) {
     state = current_.wanted.empty() ? "interrupted" : current_.wanted;
   }
   if (!error.empty()) spdlog::error("campaign {}: {}", id, error);
-  try {
-    log_.update_campaign(id, state, error);
-  } catch (const LogError& failure) {
-    spdlog::warn("campaign {}: {}", id, failure.what());
+  {
+    const std::lock_guard lock(mutex_);
+    unlogged_[id] = {state, error};
   }
+  tell_log();
   announce(id, state);
 }
 

@@ -36,6 +36,11 @@ struct CampaignSpeed {
   std::optional<double> seconds_left;  ///< empty before the first trials
 };
 
+/// How a campaign ended, or why it stands.
+struct CampaignEnd {
+  std::string state, error;
+};
+
 class CampaignManager {
  public:
   /// All outlive the manager.
@@ -60,6 +65,8 @@ class CampaignManager {
   std::optional<CampaignSpeed> speed(std::int64_t id) const;
   /// Of its crew, as far as this server has seen them; empty for threads.
   std::vector<CrewMember> workers(std::int64_t id) const;
+  /// Its state where the log could not be told of it yet: the disk is full. It is told as soon as it can be.
+  std::optional<CampaignEnd> unlogged(std::int64_t id) const;
   /// The campaign that runs becomes "interrupted", those that wait, too.
   void stop();
 
@@ -76,6 +83,7 @@ class CampaignManager {
 
   void work();
   void carry_out(std::int64_t id);
+  void tell_log();  ///< what is unlogged; what cannot be told yet stays so
   std::string run(std::int64_t id);
   std::unique_ptr<Crew> hire(std::int64_t id, const CampaignRequest& request) const;
   CampaignPlan prepare(std::int64_t id, const CampaignRequest& request);
@@ -98,7 +106,9 @@ class CampaignManager {
   Current current_;                                          ///< id 0: none
   const Crew* crew_ = nullptr;                               ///< of the current one, while it makes trials
   std::map<std::int64_t, std::vector<CrewMember>> workers_;  ///< of those before it
+  std::map<std::int64_t, CampaignEnd> unlogged_;
   bool stopping_ = false;
+  std::mutex telling_;  ///< taken before mutex_, around changes of state in the log that must not cross
   std::thread worker_;
 };
 

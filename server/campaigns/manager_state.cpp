@@ -1,4 +1,6 @@
 // What a campaign is asked from outside: pause, go on, end, be gone.
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 
 #include "server/campaigns/manager.hpp"
@@ -12,6 +14,7 @@ constexpr auto kPatience = std::chrono::seconds(10);  // for trials that are und
 }  // namespace
 
 std::string CampaignManager::state_of(std::int64_t id) const {
+  if (const auto end = unlogged(id)) return end->state;
   const auto row = reader_.campaign(id);
   if (!row) throw LogError(LogError::Kind::missing, "There is no campaign " + std::to_string(id) + ".");
   return row->state;
@@ -28,6 +31,29 @@ bool CampaignManager::end_current(std::int64_t id, const std::string& state, std
   return true;
 }
 
+std::optional<CampaignEnd> CampaignManager::unlogged(std::int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  const auto end = unlogged_.find(id);
+  return end == unlogged_.end() ? std::nullopt : std::optional(end->second);
+}
+
+void CampaignManager::tell_log() {
+  const std::lock_guard telling(telling_);
+  std::unique_lock lock(mutex_);
+  for (const auto& [id, end] : std::map(unlogged_)) {
+    lock.unlock();
+    bool told = true;
+    try {
+      log_.update_campaign(id, end.state, end.error);
+    } catch (const LogError& failure) {
+      told = failure.kind() != LogError::Kind::disk;
+      spdlog::warn("campaign {} is {}: {}", id, end.state, failure.what());
+    }
+    lock.lock();
+    if (told) unlogged_.erase(id);
+  }
+}
+
 void CampaignManager::set_state(std::int64_t id, const std::string& state) {
   {
     std::unique_lock lock(mutex_);
@@ -42,17 +68,15 @@ void CampaignManager::set_state(std::int64_t id, const std::string& state) {
   if (old == state) return;
   if (old == "finished" || old == "cancelled" || old == "failed")
     throw RunRefusal(RunRefusal::Kind::state, "The campaign is over: it is " + old + ".");
-  if (state != "running") {
-    log_.update_campaign(id, state);
-    announce(id, state);
-    return;
-  }
-  log_.update_campaign(id, "queued");
-  announce(id, "queued");
+  const bool on = state == "running";
   {
+    const std::lock_guard telling(telling_);
+    log_.update_campaign(id, on ? "queued" : state);
     const std::lock_guard lock(mutex_);
-    queue_.push_back(id);
+    unlogged_.erase(id);
+    if (on) queue_.push_back(id);
   }
+  announce(id, on ? "queued" : state);
   changed_.notify_all();
 }
 

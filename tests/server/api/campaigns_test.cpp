@@ -1,4 +1,6 @@
 /// Campaigns over HTTP: started, paused, ended, interrupted; their trials run alone.
+#include <algorithm>
+
 #include "tests/server/api/fixture.hpp"
 
 namespace vigil::api_test {
@@ -139,6 +141,34 @@ TEST_F(Campaigns, ATrialThatCannotBeRunIsKeptWithItsReason) {
   const Answer refused = client_->post("/api/v1/runs", alone);
   EXPECT_EQ(refused.status, 422);
   EXPECT_NE(refused.body.find("network"), std::string::npos) << refused.body;
+}
+
+TEST_F(Campaigns, TheGlobalStreamTellsProgressAndTheEnd) {
+  httplib::Client viewer("127.0.0.1", client_->port());
+  viewer.set_read_timeout(60);
+  std::string seen, id;
+  viewer.Get("/api/v1/stream", [&](const char* data, std::size_t size) {
+    seen.append(data, size);
+    if (id.empty())
+      id = begin_campaign({{"scenario", "consensus"}, {"patch", {{"time", {{"steps", 5}}}}}, {"runs", 40}});
+    return seen.find("\"state\":\"finished\"") == std::string::npos;
+  });
+  std::vector<Json> notes;
+  for (std::size_t at = seen.find("event: campaign"); at != std::string::npos;
+       at = seen.find("event: campaign", at + 1)) {
+    const std::size_t from = seen.find("data: ", at) + 6;
+    notes.push_back(Json::parse(seen.substr(from, seen.find('\n', from) - from)));
+  }
+  ASSERT_GE(notes.size(), 2u) << seen;
+  for (const Json& note : notes) EXPECT_EQ(note.at("id"), id);
+  const Json& last = notes.back();
+  EXPECT_EQ(last.at("state"), "finished");
+  EXPECT_EQ(last.at("done"), 40);
+  EXPECT_EQ(last.at("trials"), 40);
+  EXPECT_EQ(last.at("failed"), 0);
+  EXPECT_GT(last.at("trials_per_second"), 0);
+  const auto running = [](const Json& note) { return note.at("state") == "running"; };
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), running));
 }
 
 TEST_F(Campaigns, TheSameKeyStartsNoSecondOne) {

@@ -5,9 +5,13 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
 
 #include "db/maintenance.hpp"
 #include "db/reader.hpp"
+#include "engine/scenario/scenario.hpp"
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
@@ -92,6 +96,65 @@ TEST(CampaignCommand, SurvivesThreeKillsWithTheSameBytes) { survives(150, "adver
 TEST(CampaignCommand, TenThousandTrialsSurviveThreeKills) {
   if (std::getenv("VIGIL_FULL") == nullptr) GTEST_SKIP() << "the long one: set VIGIL_FULL";
   survives(10'000, nullptr);
+}
+
+/// Every trial is one run, whole, tagged with the campaign; nothing else is in the log.
+void expect_a_run_each(const LogReader& reader, std::int64_t trials) {
+  EXPECT_EQ(reader.count(Query::parse("", 0)), trials);
+  const auto rows = reader.trials(1);
+  ASSERT_EQ(static_cast<std::int64_t>(rows.size()), trials);
+  std::set<RunId> runs;
+  for (const TrialRow& row : rows) {
+    ASSERT_TRUE(row.run) << row.index;
+    runs.insert(*row.run);
+    const auto run = reader.run(*row.run);
+    ASSERT_TRUE(run) << row.index;
+    EXPECT_EQ(run->state, "finished");
+    EXPECT_EQ(run->seed, row.seed);
+    EXPECT_EQ(run->k, 20);
+    EXPECT_EQ(run->tags, std::vector<std::string>{"campaign:1"});
+  }
+  EXPECT_EQ(static_cast<std::int64_t>(runs.size()), trials) << "no two trials have the same run";
+}
+
+TEST(CampaignCommand, WithSamplesEveryTrialIsOneRunWhateverKillsIt) {
+  const TemporaryFolder folder;
+  const std::string db = folder.file("a.db");
+  const std::vector<std::string> words{"campaign", "consensus", "--runs", "60", "--steps",   "20", "--db",
+                                       db,         "--samples", "--json", "-",  "--threads", "2"};
+  for (const std::int64_t enough : {5, 20}) ASSERT_TRUE(kill_in_the_middle(words, db, enough)) << enough;
+  const Outcome last = vigil_command(words);
+  ASSERT_EQ(last.code, 0) << last.error;
+  EXPECT_TRUE(check_log(db).ok);
+  const LogReader reader(db);
+  expect_a_run_each(reader, 60);
+  const Outcome plain = vigil_command({"campaign", "consensus", "--runs", "60", "--steps", "20", "--json", "-"});
+  EXPECT_EQ(without_timing(last.output).dump(), without_timing(plain.output).dump());
+}
+
+TEST(CampaignCommand, ABundleBringsItsTraceIntoTheLog) {
+  const TemporaryFolder folder;
+  const std::string frames = folder.file("frames.csv"), bundle = folder.file("bundle.json"), db = folder.file("a.db");
+  ASSERT_EQ(vigil_command({"run", "consensus", "--steps", "20", "--frames", frames}).code, 0);
+  Json whole{{"vigil_bundle", 1}, {"version", std::string(version())}, {"cpu", ""}, {"scenario", "consensus"}};
+  whole["seed"] = 1;
+  whole["state"] = "finished";
+  whole["k"] = 20;
+  whole["document"] = Scenario::preset("consensus").with("time.steps", 20).document();
+  whole["commands"] = Json::array();
+  std::ostringstream text;
+  text << std::ifstream(frames).rdbuf();
+  whole["trace"] = text.str();
+  std::ofstream(bundle) << whole.dump();
+  const Outcome logged = vigil_command({"campaign", bundle, "--runs", "3", "--db", db, "--json", "-"});
+  ASSERT_EQ(logged.code, 0) << logged.error;
+  const LogReader reader(db);
+  ASSERT_EQ(reader.traces().size(), 1u);
+  EXPECT_EQ(reader.trace_csv(reader.traces().front().id), text.str());
+  EXPECT_EQ(reader.campaign(1)->request.at("trace"), reader.traces().front().id);
+  const Outcome plain = vigil_command({"campaign", bundle, "--runs", "3", "--json", "-"});
+  ASSERT_EQ(plain.code, 0) << plain.error;
+  EXPECT_EQ(without_timing(logged.output).dump(), without_timing(plain.output).dump());
 }
 
 TEST(CampaignCommand, WhatCannotGoOnIsSaid) {
