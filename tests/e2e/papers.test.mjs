@@ -161,6 +161,61 @@ describe('papers', () => {
     await view.close();
   });
 
+  test('an item shows its equations as the browser draws them, and leads to its methods', async () => {
+    const view = await open('/papers?item=000/fig4');
+    const { page } = view;
+    const item = await call(server, 'GET', '/papers/000/fig4');
+    const drawn = page.locator('details.equations math');
+    await counted(drawn, item.equations.length);
+    // Native MathML: a fraction is taller than its numerator, which needs a browser that lays it out.
+    const tall = await page.locator('details.equations mfrac').first().evaluate((fraction) => fraction.getBoundingClientRect().height / fraction.firstElementChild.getBoundingClientRect().height);
+    assert.ok(tall > 1.5, `a fraction is laid out: ${tall}`);
+    for (const one of item.equations) assert.ok(one.mathml.startsWith('<math'));
+    await page.getByRole('link', { name: 'Consensus filter', exact: true }).click();
+    await page.getByRole('heading', { level: 1, name: 'Consensus filter' }).waitFor();
+    const method = await call(server, 'GET', '/documentation/consensus_ekf');
+    await counted(page.locator('math'), method.equations.length);
+    await counted(page.locator('table tbody tr'), method.parameters.length);
+    await page.getByRole('link', { name: 'All methods' }).click();
+    await page.getByRole('link', { name: 'omp_game', exact: true }).waitFor();
+    await view.close();
+  });
+
+  test('one click makes the run of a figure and opens it; a second one opens the same', async () => {
+    const view = await open('/papers?item=000/fig4');
+    const { page } = view;
+    const item = await call(server, 'GET', '/papers/000/fig4');
+    const go = async () => {
+      await view.goto('/papers?item=000/fig4');
+      await button(page, 'Run and open: corrected units').click();
+      await page.waitForURL(/\/live\/\d+/);
+      return new URL(page.url()).pathname.split('/').pop();
+    };
+    const id = await go();
+    await until('the run is over', async () => (await call(server, 'GET', `/runs/${id}`)).state === 'finished');
+    const run = await call(server, 'GET', `/runs/${id}`);
+    assert.equal(run.seed, item.seed);
+    assert.deepEqual(run.tags, ['papers', '000/fig4']);
+    // The run is the figure's: its truth is the curve of the first panel.
+    const samples = await call(server, 'GET', `/runs/${id}/samples?signals=truth.x`);
+    const truth = item.figure.panels[0].series.find((series) => series.name === 'truth');
+    assert.deepEqual(samples.series[0].v ?? samples.series[0].lo, truth.x);
+    assert.equal(await go(), id);
+    await view.close();
+  });
+
+  test('speaks Chinese: reason, rule, claims, and the words of the figure', async () => {
+    const view = await open('/papers?item=000/fig4', { lang: 'zh' });
+    const { page } = view;
+    const item = await call(server, 'GET', '/papers/000/fig4');
+    await said(page.getByRole('article'), new RegExp(literal(item.zh.reason.replaceAll('`', ''))));
+    await said(page.getByRole('article'), new RegExp(literal(item.zh.rule)));
+    const claims = page.getByRole('region', { name: '论断' }).locator('tbody tr');
+    for (const [i, claim] of item.figure.claims.entries()) await said(claims.nth(i), new RegExp(literal(claim.zh.what)));
+    await page.getByRole('heading', { level: 4, name: item.figure.panels[0].zh.title }).waitFor();
+    await view.close();
+  });
+
   test('says which item there is not, and shows the list', async () => {
     const view = await open('/papers?item=009/fig1');
     await view.page.getByRole('alert').getByText('There is no item 009/fig1.').waitFor();
@@ -169,12 +224,12 @@ describe('papers', () => {
   });
 
   for (const [lang, theme, width] of [['en', 'light', 1440], ['zh', 'dark', 1024], ['en', 'dark', 390], ['zh', 'light', 390]]) {
-    for (const [what, path] of [['list', '/papers'], ['item', '/papers?item=000/fig4'], ['table', '/papers?item=002/fig7']]) {
+    for (const [what, path] of [['list', '/papers'], ['item', '/papers?item=000/fig4'], ['table', '/papers?item=002/fig7'], ['methods', '/methods'], ['method', '/methods/consensus_ekf']]) {
       test(`has no barrier: ${what}, ${lang}, ${theme}, ${width} px`, async () => {
         const view = await open(path, { lang, theme, width });
         const { page } = view;
         await view.goto(path);
-        await page.locator(what === 'list' ? 'tbody tr' : 'tbody tr, figure').first().waitFor();
+        await page.locator(what === 'list' || what === 'methods' ? 'tbody tr' : what === 'method' ? 'math' : 'tbody tr, figure').first().waitFor();
         await checkAxe(page, `papers ${what} ${lang} ${theme} ${width}`);
         for (const part of ['main', 'nav']) {
           const wide = await page.locator(part).first().evaluate((place) => place.scrollWidth - place.clientWidth);

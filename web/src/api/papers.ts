@@ -19,6 +19,8 @@ export interface EquationItem {
   id: string;
   /** As the source numbers it; empty where it does not. */
   number: string;
+  /** What is drawn is not what the source prints. */
+  corrected: boolean;
   says: Words;
   tex: string;
   /** A `<math>` of the server's own making. */

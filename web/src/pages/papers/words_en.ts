@@ -58,7 +58,7 @@ export const en = {
   command: 'From the command line',
   its_runs: 'Its runs',
   open_run_of: 'Run and open: {name}',
-  form_of: 'The scenario with these changes: {name}',
+  form_of: '{scenario} with these changes: {name}',
   runs_why: 'Made at full speed from seed {seed}, with every signal, and opened; one that is there is opened again.',
   documentation: 'Methods',
   all_methods: 'The methods and their equations',

@@ -61,7 +61,7 @@ export const zh: Translation<typeof en> = {
   command: '命令行',
   its_runs: '对应的运行',
   open_run_of: '运行并打开：{name}',
-  form_of: '含这些改动的场景：{name}',
+  form_of: '{scenario}，含这些改动：{name}',
   runs_why: '以种子 {seed} 全速运行，记录全部信号后打开；已有的运行会直接打开。',
   documentation: '方法',
   all_methods: '各方法及其公式',
