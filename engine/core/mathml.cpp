@@ -74,13 +74,16 @@ class Parser {
 
   std::string row() {
     std::string inside;
-    while (!ends()) inside += scripted();
+    while (!ends()) {
+      const bool after_letter = !inside.empty() && !inside.ends_with("</mo>") && !inside.ends_with("/>");
+      inside += scripted(after_letter);
+    }
     return element("mrow", inside);
   }
 
   /// An atom with what is written below, above and behind it.
-  std::string scripted() {
-    Atom base = atom();
+  std::string scripted(bool after_letter) {
+    const Atom base = atom();
     std::string below, above;
     for (;;) {
       if (take("_")) {
@@ -93,8 +96,9 @@ class Parser {
         break;
       }
     }
-    std::string xml = with_scripts(base, below, above);
-    if (base.function && !meets("(") && !meets("\\left") && !meets("[")) xml += "<mspace width=\"0.17em\"/>";
+    const std::string room = "<mspace width=\"0.17em\"/>";
+    std::string xml = (base.function && after_letter ? room : "") + with_scripts(base, below, above);
+    if (base.function && !meets("(") && !meets("\\left") && !meets("[")) xml += room;
     return xml;
   }
 

@@ -10,11 +10,19 @@
 
 namespace vigil {
 
+/// Where the source has it: "(27)", "Table 2"; empty where it numbers nothing.
+struct EquationNumber {
+  EquationNumber(const char* where, bool differs = false) : text(where), corrected(differs) {}
+
+  std::string text;
+  bool corrected = false;  ///< the code has something else than the source prints
+};
+
 struct Equation {
-  std::string id;      ///< family and name: "consensus/27"
-  std::string number;  ///< of the source, with "corrected" where the code differs; empty: not numbered there
-  Words says;          ///< what it gives, and what was corrected
-  std::string tex;     ///< of the subset of engine/core/mathml.hpp
+  std::string id;  ///< family and name: "consensus/27"
+  EquationNumber number;
+  Words says;                             ///< what it gives, and what was corrected
+  std::string tex;                        ///< of the subset of engine/core/mathml.hpp
   std::vector<std::string> methods = {};  ///< whose pages show it; none: it belongs to a plant, an attack or a metric
 };
 

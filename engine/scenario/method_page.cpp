@@ -112,7 +112,8 @@ std::optional<Words> method_title(std::string_view id) {
 
 Json equation_json(const Equation& equation) {
   return {{"id", equation.id},
-          {"number", equation.number},
+          {"number", equation.number.text},
+          {"corrected", equation.number.corrected},
           {"says", both(equation.says)},
           {"tex", equation.tex},
           {"mathml", mathml(equation.tex)}};

@@ -20,7 +20,7 @@ Json method_page(std::string_view id);
 Json method_index();
 /// Empty where there is none.
 std::optional<Words> method_title(std::string_view id);
-/// {"id","number","says","tex","mathml"}
+/// {"id","number","corrected","says","tex","mathml"}
 Json equation_json(const Equation& equation);
 
 }  // namespace vigil

@@ -48,12 +48,14 @@ std::string resolved(const MethodWords& words, const ParamTable& params) {
   return text;
 }
 
+std::string number_of(const EquationNumber& number) {
+  return (number.text.empty() ? "" : ", " + number.text) + (number.corrected ? ", corrected" : "");
+}
+
 std::string drawn(const std::string& id) {
   std::string text = "\n## Equations\n";
-  for (const Equation* one : equations_of(id)) {
-    text += fmt::format("\n{}{}\n\n```math\n{}\n```\n", one->says.en,
-                        one->number.empty() ? "." : ", " + one->number + ".", one->tex);
-  }
+  for (const Equation* one : equations_of(id))
+    text += fmt::format("\n{}{}.\n\n```math\n{}\n```\n", one->says.en, number_of(one->number), one->tex);
   return text;
 }
 

@@ -15,7 +15,9 @@ std::string equations_html(const Json& equations) {
   for (const Json& one : equations) {
     const std::string number = text_of(one.at("number"));
     html += "<div class=\"equation\"><p>" + escaped(text_of(one.at("says").at("en"))) +
-            (number.empty() ? "" : " <b>" + escaped(number) + "</b>") + "</p>" + text_of(one.at("mathml")) + "</div>";
+            (number.empty() ? "" : " <b>" + escaped(number) + "</b>") +
+            (one.at("corrected").get<bool>() ? " <i>corrected</i>" : "") + "</p>" + text_of(one.at("mathml")) +
+            "</div>";
   }
   return html;
 }

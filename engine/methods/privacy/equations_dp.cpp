@@ -51,7 +51,7 @@ const EquationsRegistration differential({
 
 const EquationsRegistration two_step({
     {"privacy/4-11",
-     "(4-11), (4-12), corrected",
+     {"(4-11), (4-12)", true},
      {"Messages: noisy estimates summed over a window of tq terms (print sums one too many), null-space noise on top",
       "报文：带噪估计在 t_q 项窗口内求和（原文多一项），再叠加零空间噪声"},
      R"(s(t) = \sum_{k=t-t_q+1}^{t}\left(\hat x(k) + R\,\xi(k)\right) + \left(I - W_c^{+}W_c\right)\alpha(t))",
@@ -75,7 +75,7 @@ const EquationsRegistration two_step({
      R"(x_w(t) = s(t) - s(t-1) + x_w(t - t_q),\quad \hat x_w = W x_w)",
      kTwoStep},
     {"privacy/4-24",
-     "(4-24)-(4-27), corrected",
+     {"(4-24)-(4-27)", true},
      {"The eavesdropper's covariance: linear growth, since only the null-space noise adds up",
       "窃听者误差协方差：只有零空间噪声累积，因此线性增长"},
      R"(\operatorname{tr}(W P_p W^\top) + c(t)\,q_\alpha\operatorname{tr}(W\Pi W^\top),\quad c(t))"

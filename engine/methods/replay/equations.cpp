@@ -47,7 +47,7 @@ const EquationsRegistration filter({
 
 const EquationsRegistration detector({
     {"replay/25",
-     "(25), corrected",
+     {"(25)", true},
      {"Detection function: mean energy of the last t residuals; the printed sum has an index too many",
       "检测函数：最近 t 个残差的平均能量；原文求和中的下标有误"},
      R"(\xi_k = \frac{1}{t}\sum_{i=k-t+1}^{k} r_i^\top r_i,\quad r_k = y_k - C\hat x_k)",
@@ -102,7 +102,7 @@ const EquationsRegistration rivals({
      R"( \text{alarm: } E_k^\top(s_k - m_k) \notin \mathcal{Z}_k)",
      {"zonotope_watermark"}},
     {"replay/4",
-     "(4), corrected",
+     {"(4)", true},
      {"UFIR filter over the last N readings, with the input of the step before",
       "基于最近 N 个量测的 UFIR 滤波，输入取前一时刻"},
      R"(\hat x_l = A\hat x_{l-1} + B u_{l-1} + G_l C^\top(y_l - C\bar x_l),\quad G_l = \left(C^\top C)"

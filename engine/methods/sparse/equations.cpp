@@ -13,14 +13,14 @@ const EquationsRegistration world({
      {"The target under state feedback, known to every station", "状态反馈下的目标，各站点已知其模型"},
      R"(x(k+1) = \bar A\,x(k) + w(k),\quad \bar A = A + B G,\quad w \sim \mathcal{N}(0, Q))"},
     {"sparse/2",
-     "(2), corrected",
+     {"(2)", true},
      {"What a station reads: range, azimuth, elevation, velocity; the quadrant is kept by atan2",
       "站点的量测：距离、方位、俯仰与速度；以 atan2 保留象限"},
      R"(y = \left[\rho,\; \operatorname{atan2}(\Delta y,\Delta x),\; \operatorname{atan2}(\Delta)"
      R"( z,\rho_2),\; v_x,\; v_y,\; v_z\right]^\top)"
      R"( + e + v,\quad \rho_2 = \sqrt{\Delta x^2 + \Delta y^2})"},
     {"sparse/jacobian",
-     "corrected",
+     {"", true},
      {"Its derivatives of azimuth and elevation; the printed ones divide by rho_2, and have rho_2 squared",
       "方位与俯仰对位置的导数；原文分别误作除以 ρ₂ 与 ρ₂²"},
      R"(\frac{\partial\psi}{\partial(p_x,p_y)} = \frac{(-\Delta y,\; \Delta x)}{\rho_2^2},\quad)"
@@ -68,7 +68,7 @@ const EquationsRegistration window({
      R"(\hat x = \hat x^- + K\left(\nu - E_{T-1}\right))",
      kWindow},
     {"sparse/7",
-     "(7), corrected",
+     {"(7)", true},
      {"Utility of copying j: a small attack, and one whose places the neighbours agree with. Printed, the logarithm's "
       "argument is negative",
       "采用 j 的估计的效用：攻击小，且其支撑与邻居一致。原文对数的自变量为负"},

@@ -25,6 +25,10 @@ TEST(MathMl, IsMadeOfLettersNumbersAndSigns) {
   EXPECT_EQ(inside("3."), "<mn>3</mn><mo>.</mo>");
   EXPECT_EQ(inside(R"(\alpha-\Phi)"), "<mi>α</mi><mo>−</mo><mi mathvariant=\"normal\">Φ</mi>");
   EXPECT_EQ(inside(R"(\ln m)"), "<mi>ln</mi><mspace width=\"0.17em\"/><mi>m</mi>");
+  EXPECT_EQ(inside(R"(s\cos x)"),
+            "<mi>s</mi><mspace width=\"0.17em\"/><mi>cos</mi><mspace width=\"0.17em\"/><mi>x</mi>");
+  EXPECT_EQ(inside(R"(-\ln(m))"),
+            "<mo>−</mo><mi>ln</mi><mo stretchy=\"false\">(</mo><mi>m</mi><mo stretchy=\"false\">)</mo>");
   EXPECT_EQ(inside(R"(\text{no loss})"), "<mtext>no loss</mtext>");
   EXPECT_EQ(inside(R"(\mathcal{N})"), "<mi>𝒩</mi>");
 }
@@ -91,7 +95,7 @@ TEST(Equations, CanAllBeDrawnAndSayWhatTheyGive) {
 TEST(Equations, AreThereForEveryMethodInTheOrderOfItsSource) {
   for (const FamilyWords& one : method_words()) EXPECT_FALSE(equations_of(one.words.id).empty()) << one.words.id;
   std::vector<std::string> of_filter;
-  for (const Equation* one : equations_of("consensus_ekf")) of_filter.push_back(one->number);
+  for (const Equation* one : equations_of("consensus_ekf")) of_filter.push_back(one->number.text);
   EXPECT_EQ(of_filter, (std::vector<std::string>{"(6)", "(7)", "(26)", "(27)", "(28), (29)", "(30)"}));
 }
 
