@@ -27,6 +27,13 @@ std::string escaped(char c) {
   }
 }
 
+/// A browser drops an ordinary space at a text's end.
+std::string with_hard_spaces(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == ' ' ? "\u00a0" : std::string{c};
+  return result;
+}
+
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -170,7 +177,7 @@ class Parser {
     if (what == "sqrt") return {element("msqrt", argument())};
     if (what == "begin") return {environment()};
     if (what == "left") return {fenced()};
-    if (what == "text") return {element("mtext", plain_group())};
+    if (what == "text") return {element("mtext", with_hard_spaces(plain_group()))};
     if (what == "mathrm") return {element("mi", plain_group(), " mathvariant=\"normal\"")};
     if (what == "operatorname") return {element("mi", plain_group(), " mathvariant=\"normal\""), false, true};
     if (what == "mathcal") return {script()};

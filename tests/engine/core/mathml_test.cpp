@@ -29,7 +29,7 @@ TEST(MathMl, IsMadeOfLettersNumbersAndSigns) {
             "<mi>s</mi><mspace width=\"0.17em\"/><mi>cos</mi><mspace width=\"0.17em\"/><mi>x</mi>");
   EXPECT_EQ(inside(R"(-\ln(m))"),
             "<mo>−</mo><mi>ln</mi><mo stretchy=\"false\">(</mo><mi>m</mi><mo stretchy=\"false\">)</mo>");
-  EXPECT_EQ(inside(R"(\text{no loss})"), "<mtext>no loss</mtext>");
+  EXPECT_EQ(inside(R"(\text{no loss})"), "<mtext>no\u00a0loss</mtext>");
   EXPECT_EQ(inside(R"(\mathcal{N})"), "<mi>𝒩</mi>");
 }
 
