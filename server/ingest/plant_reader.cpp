@@ -67,19 +67,19 @@ std::string PlantReader::column(const std::string& name) const {
   return place == options_.signals.end() ? name : place->second;
 }
 
-std::int64_t PlantReader::tick_at(double seconds) {
+std::uint64_t PlantReader::tick_at(double seconds) {
   if (!start_) start_ = seconds;
   const double k = std::round((seconds - *start_) / dt_);
   if (!(k >= 0))
     throw InputError("/time", "the message is " + number_text(*start_ - seconds) + " s older than tick 0",
                      "from " + number_text(*start_));
   if (k > kLastTick) throw InputError("/time", "the message is of tick " + number_text(k), "up to tick 1000000000000");
-  return static_cast<std::int64_t>(k);
+  return static_cast<std::uint64_t>(k);
 }
 
 void PlantReader::set_tick(const Json& message, Json& row) {
   if (options_.clock == PlantOptions::Clock::arrival) {
-    row["k"] = 0;
+    row["k"] = 0u;
   } else if (options_.clock == PlantOptions::Clock::ticks) {
     if (!message.contains("k"))
       throw InputError("/k", "the message has no k; a run whose plant does not count ticks has a \"clock\"",
@@ -125,6 +125,7 @@ Json PlantReader::row_of(const TopicPlace& place, const Json& message) const {
   for (const auto& [name, value] : message.items()) {
     if (name != "k" && name != "seq" && name != "node" && !is_time(name)) add(name, value);
   }
+  if (row["values"].empty()) throw InputError("", "the message has no value", "values, or members that are channels");
   return row;
 }
 

@@ -36,7 +36,7 @@ class PlantReader {
   Json row_of(const TopicPlace& place, const Json& message) const;
   std::string column(const std::string& name) const;
   void set_tick(const Json& message, Json& row);
-  std::int64_t tick_at(double seconds);
+  std::uint64_t tick_at(double seconds);
 
   const PushedColumns& columns_;
   const RowReader& rows_;

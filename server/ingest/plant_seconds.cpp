@@ -42,9 +42,9 @@ std::optional<double> plant_seconds(const Json& value) {
   if (!value.is_number()) return std::nullopt;
   const double number = value.get<double>();
   if (!std::isfinite(number) || number < 0) return std::nullopt;
-  if (number > 1e17) return number * 1e-9;
-  if (number > 1e14) return number * 1e-6;
-  return number > 1e11 ? number * 1e-3 : number;
+  if (number > 1e17) return number / 1e9;
+  if (number > 1e14) return number / 1e6;
+  return number > 1e11 ? number / 1e3 : number;
 }
 
 }  // namespace vigil

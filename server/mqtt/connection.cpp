@@ -75,7 +75,7 @@ mqtt::connect_options MqttConnection::connect_options() {
   options.set_mqtt_version(MQTTVERSION_3_1_1);
   options.set_clean_session(!role_.keeps_session);
   options.set_keep_alive_interval(20s);
-  options.set_connect_timeout(5s);
+  options.set_connect_timeout(4s);
   options.set_max_inflight(kUnsent);
   const BrokerCredentials& who = options_.credentials;
   if (!who.user.empty()) options.set_user_name(who.user);
@@ -107,6 +107,7 @@ bool MqttConnection::wait(const mqtt::token_ptr& token, std::chrono::millisecond
 }
 
 void MqttConnection::failed(const std::string& sentence) {
+  if (stop_) return;
   const std::lock_guard lock(mutex_);
   std::string whole = sentence;
   if (!tls_error_.empty()) whole += " (" + tls_error_.substr(0, tls_error_.find('\n')) + ")";
@@ -127,6 +128,7 @@ bool MqttConnection::connect() {
     subscribe();
   } catch (const std::exception& error) {
     failed(error.what());
+    if (client_.is_connected()) leave();  // what it refuses now it may grant later
     return false;
   }
   {

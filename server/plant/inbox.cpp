@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/core/describe.hpp"
-#include "engine/core/input_error.hpp"
 #include "server/front/message.hpp"
 
 namespace vigil {
@@ -128,9 +127,6 @@ PlantInbox::Fate PlantInbox::give(LiveRun& run, const TopicPlace& place, const M
     return Fate::taken;
   } catch (const RunRefusal&) {
     return Fate::behind;
-  } catch (const InputError& error) {
-    const std::string pointer = error.problems().empty() ? "" : error.problems().front().pointer;
-    sentence = pointer.empty() ? error.what() : pointer + ": " + error.what();
   } catch (const std::exception& error) {
     sentence = error.what();
   }

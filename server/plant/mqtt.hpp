@@ -16,9 +16,9 @@ struct MqttOptions {
   std::string url;                   ///< tcp://HOST[:PORT], ssl://HOST[:PORT], or mqtt:// and mqtts:// for the same
   std::vector<TopicPattern> topics;  ///< that feed runs; none: only alarms go out
   BrokerCredentials credentials;
-  std::string client;                  ///< stable over restarts: the broker keeps messages for it
-  std::string prefix;                  ///< of the topics that go out; no wildcard
-  std::size_t max_payload = 8u << 20;  ///< bytes
+  std::string client;  ///< stable over restarts: the broker keeps messages for it
+  std::string prefix;  ///< of the topics that go out; no wildcard
+  InboxOptions inbox;
 };
 
 /// Connects, reconnects for ever, and brings messages into an inbox.

@@ -24,10 +24,8 @@ Outside::~Outside() { stop(); }
 void Outside::listen(const RunManager& runs) {
   if (!listens()) return;
   const std::lock_guard lock(mutex_);
-  InboxOptions options;
-  options.payload = options_.mqtt->max_payload;
   inbox_ = std::make_unique<PlantInbox>(
-      options_.mqtt->topics, [&runs](const std::string& run) { return runs.fed(run); }, options);
+      options_.mqtt->topics, [&runs](const std::string& run) { return runs.fed(run); }, options_.mqtt->inbox);
   link_ = open_plant_link(*options_.mqtt, *inbox_);
 }
 
