@@ -93,7 +93,7 @@ Json item_schema() {
        {"ended", text},
        {"zh", {{"type", "object"}, {"description", "paper, reason and rule in Chinese"}}},
        {"scenes", list_of("runs that the figure is of: name, scenario, patch; what POST /runs takes")},
-       {"methods", list_of("id and title of the methods in them: GET /documentation/{id}")},
+       {"methods", list_of("id and title of the methods in them: GET /documentation/{method}")},
        {"equations", list_of("number, says, tex, mathml; of one item alone")},
        {"figure", {{"type", {"object", "null"}}, {"description", "claims and panels; of one item alone"}}}});
 }

@@ -84,6 +84,7 @@ class EveryRoute : public SystemTest {
     put("{index}", "1");
     put("{source}", "000");
     put("{figure}", "fig1");
+    put("{method}", "consensus_ekf");
     if (path.ends_with("/compare")) path += "?ids=" + run_ + "," + fed_;
     return path;
   }
