@@ -48,6 +48,7 @@ void Announcer::alarm(RunId run, const Mark& mark) {
   else
     nodes.emplace(mark.node, mark.k);
   place->second.note["k"] = mark.k;
+  place->second.note.erase("t");  // it was of an earlier tick
   say_state(run, place->second, true);
 }
 

@@ -77,7 +77,8 @@ TEST_F(AlarmsTest, AStateTellsWhichLanesAreInAlarmNow) {
   EXPECT_TRUE(eventually([&] {
     while (const auto message = listener_.next(std::chrono::milliseconds(20))) {
       if (message->topic != "vigil/test/runs/" + id + "/state") continue;
-      for (const auto& [lane, now] : Json::parse(message->payload).at("lanes").items())
+      const Json state = Json::parse(message->payload);
+      for (const auto& [lane, now] : state.at("lanes").items())
         begun = begun || (now.at("alarm") == true && !now.at("since").empty());
     }
     return begun;
