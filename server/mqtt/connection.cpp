@@ -67,7 +67,11 @@ MqttConnection::~MqttConnection() {
   stop_ = true;
   wake_.notify_all();
   thread_.join();
-  client_.disable_callbacks();
+  try {
+    client_.disable_callbacks();
+  } catch (const std::exception&) {
+    // The library refuses while it is connecting; its end is the client's own, next.
+  }
 }
 
 mqtt::connect_options MqttConnection::connect_options() {

@@ -59,13 +59,13 @@ class MqttConnection {
   const MqttOptions options_;
   const MqttRole role_;
   const std::string address_;
-  mqtt::async_client client_;
   std::atomic<bool> connected_{false}, stop_{false};
   std::atomic<std::uint64_t> connections_{0};
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   bool away_ = false;
   std::string error_, tls_error_;
+  mqtt::async_client client_;  ///< its callbacks use what is above
   std::thread thread_;
 };
 
