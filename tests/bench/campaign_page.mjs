@@ -2,7 +2,7 @@
 // node tests/bench/campaign_page.mjs URL [THREADS]
 import { openBrowser } from '../e2e/support/browser.mjs';
 
-const [url, threads = '1'] = process.argv.slice(2);
+const [url, threads = '2'] = process.argv.slice(2);
 const call = async (method, path, body) => {
   const response = await fetch(`${url}/api/v1${path}`, { method, headers: { 'Content-Type': 'application/json' }, body: body && JSON.stringify(body) });
   return response.status === 204 ? null : response.json();
@@ -62,11 +62,13 @@ await page.getByRole('region', { name: /^Results/ }).waitFor();
 console.log(`results are shown after ${Math.round(performance.now() - begin)} ms`);
 await phase('it runs, the pointer moves');
 let rounds = 0;
-while ((await look()).state === 'running') {
+while (rounds < 8 && (await look()).state === 'running') {
   for (const name of [/^rmse_position over/, /^rmse_position of/, /trials of consensus.rmse_position/]) await over(name);
   rounds++;
 }
 console.log(`the pointer went ${rounds} times over three figures while it ran`);
+await phase('waiting for the last trial');
+while ((await look()).state === 'running') await page.waitForTimeout(1000);
 await phase('reading 10 000 trials');
 begin = performance.now();
 await page.getByRole('button', { name: 'Read the trials' }).click();
