@@ -111,6 +111,7 @@ void CampaignManager::work() {
     queue_.pop_front();
     current_.stop = false;
     current_.wanted.clear();
+    current_.ended = false;
     current_.first = current_.done = current_.trials = current_.failed = 0;
     current_.begin = current_.told = Clock::now();
     const std::int64_t id = current_.id;
@@ -149,14 +150,12 @@ void CampaignManager::carry_out(std::int64_t id) {
     state = "failed";
     error = failure.what();
   }
-  if (state.empty()) {
-    const std::lock_guard lock(mutex_);
-    state = current_.wanted.empty() ? "interrupted" : current_.wanted;
-  }
   if (!error.empty()) spdlog::error("campaign {}: {}", id, error);
   {
     const std::lock_guard lock(mutex_);
+    if (state.empty()) state = current_.wanted.empty() ? "interrupted" : current_.wanted;
     unlogged_[id] = {state, error};
+    current_.ended = true;
   }
   tell_log();
   announce(id, state);

@@ -77,6 +77,7 @@ class CampaignManager {
     std::int64_t id = 0;
     std::atomic<bool> stop{false};
     std::string wanted;  ///< state it is to end in; empty: by itself
+    bool ended = false;  ///< only the log is yet to be told
     std::int64_t first = 0, done = 0, trials = 0, failed = 0;
     Clock::time_point begin{}, told{};
   };

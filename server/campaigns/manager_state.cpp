@@ -58,6 +58,8 @@ void CampaignManager::set_state(std::int64_t id, const std::string& state) {
   {
     std::unique_lock lock(mutex_);
     if (state == "running") {
+      const bool ends = current_.id == id && current_.ended;
+      if (ends) changed_.wait_for(lock, kPatience, [&] { return current_.id != id; });
       if (current_.id == id || std::find(queue_.begin(), queue_.end(), id) != queue_.end()) return;
     } else {
       end_current(id, state, lock);
