@@ -19,10 +19,34 @@ struct BoundRecord {
   std::vector<double> bounds;  ///< ticks x outputs x states^2, column-major
 };
 
-/// Sums over runs. Runs that ended early count where they got to.
-class BoundRatio {
+/// Sums of outer products and bounds over runs, by tick and output. Runs that ended early count where they got to.
+class BoundSums {
  public:
   void add(const BoundRecord& record);
+  void add(const BoundSums& other);
+  bool empty() const { return counts_.empty(); }
+  /// As BoundRatio::max().
+  double max() const;
+
+  void save(ByteWriter& out) const;
+  void load(ByteReader& in);
+
+ private:
+  void grow(std::size_t cells);
+
+  int states_ = 0;
+  std::vector<std::int64_t> counts_;
+  std::vector<Eigen::MatrixXd> outer_, bounds_;
+};
+
+/// Runs are summed in blocks, and the blocks' sums in turn: who makes a whole block elsewhere sends its sums instead of
+/// every run's records, and the bits are the same.
+class BoundRatio {
+ public:
+  void add(const BoundRecord& record) { block_.add(record); }
+  void add(const BoundSums& sums) { block_.add(sums); }
+  /// The next run begins a new block.
+  void close_block();
   /// The largest over ticks and outputs of lambda_max(L^-1 P L^-T), L L' = mean bound, P = mean of e e' (no mean
   /// removed). Infinity where a mean bound is not positive definite: never passed.
   double max() const;
@@ -31,9 +55,7 @@ class BoundRatio {
   void load(ByteReader& in);
 
  private:
-  int states_ = 0;
-  std::vector<std::int64_t> counts_;
-  std::vector<Eigen::MatrixXd> outer_, bounds_;
+  BoundSums whole_, block_;
 };
 
 }  // namespace vigil

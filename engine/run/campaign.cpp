@@ -13,7 +13,40 @@ CampaignTable::CampaignTable(CampaignTable&&) noexcept = default;
 CampaignTable& CampaignTable::operator=(CampaignTable&&) noexcept = default;
 CampaignTable::~CampaignTable() = default;
 
+void pool_block(std::vector<TrialResult>& trials, std::size_t first, std::size_t count) {
+  std::vector<std::pair<std::string, BoundSums>> sums;
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (!trials[i].extra) continue;
+    for (const BoundRecord& record : trials[i].extra->bounds) {
+      if (record.errors.empty()) continue;
+      const auto same = [&](const auto& one) { return one.first == record.lane; };
+      auto place = std::find_if(sums.begin(), sums.end(), same);
+      if (place == sums.end()) place = sums.insert(place, {record.lane, {}});
+      place->second.add(record);
+    }
+    trials[i].extra->bounds.clear();
+  }
+  if (sums.empty()) return;
+  for (std::size_t i = first; i + 1 < first + count; ++i) trials[i].more = true;
+  TrialResult& last = trials[first + count - 1];
+  if (!last.extra) last.extra = std::make_unique<TrialResult::Extra>();
+  last.extra->sums = std::move(sums);
+}
+
+BoundRatio& CampaignTable::State::ratio_of(const std::string& lane) {
+  const auto [place, fresh] = bounds.try_emplace(lane);
+  if (fresh) lanes.push_back(lane);
+  return place->second;
+}
+
 void CampaignTable::add(const TrialResult& trial) {
+  add_values(trial);
+  if (trial.extra) add_extra(*trial.extra);
+  if (state_->trials % kTrialBlock != 0) return;
+  for (auto& [lane, ratio] : state_->bounds) ratio.close_block();
+}
+
+void CampaignTable::add_values(const TrialResult& trial) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto row = static_cast<std::size_t>(state_->trials++);
   for (const MetricValue& metric : trial.metrics) {
@@ -24,19 +57,19 @@ void CampaignTable::add(const TrialResult& trial) {
     values.resize(row, kNone);
     values.push_back(metric.value);
   }
-  if (!trial.extra) return;
-  for (const RatioRecord& ratio : trial.extra->ratios) {
+}
+
+void CampaignTable::add_extra(const TrialResult::Extra& extra) {
+  for (const RatioRecord& ratio : extra.ratios) {
     auto& pool = state_->ratios[{ratio.lane, "", ratio.name, ratio.variant}];
     pool.above.push_back(ratio.above);
     pool.below.push_back(ratio.below);
   }
-  for (const BoundRecord& record : trial.extra->bounds) {
-    if (record.errors.empty()) continue;
-    const auto [place, fresh] = state_->bounds.try_emplace(record.lane);
-    if (fresh) state_->lanes.push_back(record.lane);
-    place->second.add(record);
+  for (const BoundRecord& record : extra.bounds) {
+    if (!record.errors.empty()) state_->ratio_of(record.lane).add(record);
   }
-  for (const DetectionSummary& one : trial.extra->detection) {
+  for (const auto& [lane, sums] : extra.sums) state_->ratio_of(lane).add(sums);
+  for (const DetectionSummary& one : extra.detection) {
     auto& all = state_->detection;
     const auto same = [&](const DetectionSummary& sum) { return sum.lane == one.lane && sum.node == one.node; };
     const auto place = std::find_if(all.begin(), all.end(), same);

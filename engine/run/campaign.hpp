@@ -30,6 +30,7 @@ class TrialResult {
   Json design;
   std::int64_t ticks = 0;
   std::string error;  ///< why there is no result at all; empty: there is one
+  bool more = false;  ///< part of what it leaves comes with a later trial of its block
   struct Extra;
   std::unique_ptr<Extra> extra;
 };
@@ -42,6 +43,13 @@ TrialResult take_trial(Run& run);
 /// at once. designs: as RunOptions has them.
 TrialResult run_trial(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Trace> trace = nullptr,
                       const Json& designs = Json::object());
+
+/// Trials are summed in blocks of so many of a campaign's point, the last one shorter.
+inline constexpr std::int64_t kTrialBlock = 32;
+
+/// Trials first .. first + count - 1 of the list are a whole block: what a table only sums of them moves to the last,
+/// summed. A table gets the same bits from them, as long as it gets all of them.
+void pool_block(std::vector<TrialResult>& trials, std::size_t first, std::size_t count);
 
 /// A finished trial as bytes, every bit kept, so that it can be made elsewhere: a table to which load_trial() of it is
 /// added is the table to which the trial was added.
@@ -128,6 +136,9 @@ class CampaignTable {
   void load(std::string_view bytes);
 
  private:
+  void add_values(const TrialResult& trial);
+  void add_extra(const TrialResult::Extra& extra);
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -7,7 +7,7 @@
 namespace vigil {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x3130'4c41'4952'5456;  // "VTRIAL01"
+constexpr std::uint64_t kFormat = 0x3230'4c41'4952'5456;  // "VTRIAL02"
 constexpr int kMostStates = 10'000;
 
 void put(ByteWriter& out, const MetricValue& metric) {
@@ -72,6 +72,18 @@ BoundRecord bound_of(ByteReader& in) {
   return record;
 }
 
+void put(ByteWriter& out, const std::pair<std::string, BoundSums>& sums) {
+  out.text(sums.first);
+  sums.second.save(out);
+}
+
+std::pair<std::string, BoundSums> sums_of(ByteReader& in) {
+  std::pair<std::string, BoundSums> sums;
+  sums.first = in.text();
+  sums.second.load(in);
+  return sums;
+}
+
 void put(ByteWriter& out, const RatioRecord& ratio) {
   for (const std::string* word : {&ratio.lane, &ratio.name, &ratio.variant}) out.text(*word);
   out.number(ratio.above);
@@ -126,9 +138,11 @@ std::string save_trial(const TrialResult& trial) {
   put_all(out, trial.faults);
   out.word(trial.warnings.size());
   for (const std::string& warning : trial.warnings) out.text(warning);
+  out.word(trial.more ? 1 : 0);
   out.word(trial.extra ? 1 : 0);
   if (!trial.extra) return out.take();
   put_all(out, trial.extra->bounds);
+  put_all(out, trial.extra->sums);
   put_all(out, trial.extra->ratios);
   put_all(out, trial.extra->detection);
   return out.take();
@@ -146,9 +160,11 @@ TrialResult load_trial(std::string_view bytes) {
   trial.metrics = all_of(in, metric_of);
   trial.faults = all_of(in, fault_of);
   for (std::size_t left = in.count(8); left > 0; --left) trial.warnings.push_back(in.text());
+  trial.more = in.word() != 0;
   if (in.word() != 0) {
     trial.extra = std::make_unique<TrialResult::Extra>();
     trial.extra->bounds = all_of(in, bound_of);
+    trial.extra->sums = all_of(in, sums_of);
     trial.extra->ratios = all_of(in, ratio_of);
     trial.extra->detection = all_of(in, detection_of);
   }

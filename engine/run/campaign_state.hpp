@@ -14,6 +14,7 @@ namespace vigil {
 
 struct TrialResult::Extra {
   std::vector<BoundRecord> bounds;
+  std::vector<std::pair<std::string, BoundSums>> sums;  ///< by lane: of this trial's whole block, in place of bounds
   std::vector<RatioRecord> ratios;
   std::vector<DetectionSummary> detection;
 };
@@ -43,6 +44,8 @@ struct CampaignTable::State {
   std::vector<std::string> lanes;   ///< with a bound record, in order
   std::vector<DetectionSummary> detection;
   std::int64_t trials = 0;
+
+  BoundRatio& ratio_of(const std::string& lane);
 };
 
 }  // namespace vigil

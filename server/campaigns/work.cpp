@@ -117,6 +117,7 @@ void CampaignWork::take(std::int64_t index, const TrialResult& trial) {
   cell_.add(trial);
   batch_.trials.push_back(row_of(index, trial));
   if ((index + 1) % plan_.runs == 0) close_cell(index / plan_.runs);
+  if (trial.more) return;  // what is committed must be whole
   const bool busy = committing_.valid() && committing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
   if (busy || Clock::now() - committed_ < kBetweenCommits) return;
   settle();

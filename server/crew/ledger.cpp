@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/run/campaign.hpp"
+
 namespace vigil {
 namespace {
 
@@ -16,7 +18,17 @@ std::int64_t TrialLedger::size(int threads) const {
   if (seconds_ <= 0) return 1;
   const auto wanted = static_cast<std::int64_t>(std::min(kJobSeconds / seconds_, static_cast<double>(kMostInJob)));
   const std::int64_t fair = (trials_ - next_) / (2 * std::max(threads, 1));
-  return std::max<std::int64_t>(1, std::min(wanted, fair));
+  const std::int64_t count = std::max<std::int64_t>(1, std::min(wanted, fair));
+  const std::int64_t place = next_ % runs_, block = place % kTrialBlock;
+  const bool short_of_block = block + count < kTrialBlock || place + count >= runs_;
+  return short_of_block ? count : count - (block + count) % kTrialBlock;
+}
+
+bool TrialLedger::whole(const TrialJob& job) const {
+  for (std::int64_t index = job.first; index < job.first + job.count; ++index) {
+    if (!missing(index)) return false;
+  }
+  return true;
 }
 
 TrialJob TrialLedger::publish(TrialJob job) {
@@ -49,11 +61,10 @@ std::optional<TrialJob> TrialLedger::next(int threads) {
 void TrialLedger::put(JobResult result) {
   if (!result.error.empty()) throw std::runtime_error(result.error);
   const TrialJob& job = result.job;
-  if (job.first + job.count > next_) return;  // nobody asked for these
+  if (job.first + job.count > next_ || !whole(job)) return;  // nobody asked for these, or they are there
   const double each = result.seconds / static_cast<double>(job.count);
   if (std::isfinite(each) && each > 0) seconds_ = seconds_ <= 0 ? each : (1 - kNewest) * seconds_ + kNewest * each;
   for (std::int64_t i = 0; i < job.count; ++i) {
-    if (!missing(job.first + i)) continue;
     std::string& bytes = result.trials[static_cast<std::size_t>(i)];
     bytes_ += bytes.size();
     results_[job.first + i] = std::move(bytes);

@@ -19,14 +19,16 @@ class TrialLedger {
   static constexpr std::int64_t kJobsAheadHeavy = 4;   ///< the same where much waits to be merged
   static constexpr std::size_t kHeavy = 64ULL << 20U;  ///< bytes
 
-  /// Trials first .. trials - 1 are to be made.
-  TrialLedger(std::int64_t first, std::int64_t trials) : trials_(trials), merged_(first), next_(first) {}
+  /// Trials first .. trials - 1 are to be made; runs: of each point.
+  TrialLedger(std::int64_t first, std::int64_t trials, std::int64_t runs)
+      : trials_(trials), runs_(runs), merged_(first), next_(first) {}
 
   /// The next job to publish for `threads` threads; empty: enough is under way. Ranges grow until they take
-  /// kJobSeconds, and shrink again towards the end, so that all end together.
+  /// kJobSeconds, and shrink again towards the end, so that all end together. Where they are long enough they end with
+  /// a block of trials (kTrialBlock).
   std::optional<TrialJob> next(int threads);
-  /// Each trial counts once, whoever made it and however often. Throws std::runtime_error with the reason where the job
-  /// ended with an error.
+  /// Each trial counts once, whoever made it and however often; a job counts as a whole or not at all. Throws
+  /// std::runtime_error with the reason where the job ended with an error.
   void put(JobResult result);
   /// The next trial's bytes in order; empty: not there yet.
   std::optional<std::pair<std::int64_t, std::string>> take();
@@ -44,10 +46,11 @@ class TrialLedger {
  private:
   std::int64_t size(int threads) const;
   bool missing(std::int64_t index) const { return index >= merged_ && !results_.contains(index); }
-  bool missing(const TrialJob& job) const;
+  bool missing(const TrialJob& job) const;  ///< any of it
+  bool whole(const TrialJob& job) const;    ///< all of it is missing
   TrialJob publish(TrialJob job);
 
-  std::int64_t trials_, merged_, next_;
+  std::int64_t trials_, runs_, merged_, next_;
   double seconds_ = 0;  ///< of one trial, lately; 0: not known
   std::size_t bytes_ = 0;
   std::map<std::int64_t, std::string> results_;

@@ -62,4 +62,23 @@ TrialResult ShippedPlan::trial(std::int64_t index, const std::atomic<bool>& stop
   return plain_trial(*plan_of(point_of(index)), index % runs_, stop);
 }
 
+std::vector<TrialResult> ShippedPlan::range(std::int64_t first, std::int64_t count, const std::atomic<bool>& stop,
+                                            const std::function<void(std::int64_t)>& before) {
+  std::vector<TrialResult> trials;
+  std::int64_t designed = -1, block = 0;  // point whose design is there; where the block began, in the list
+  for (std::int64_t index = first; index < first + count; ++index) {
+    before(index);
+    TrialResult made = trial(index, stop);
+    if (point_of(index) == designed) made.design = nullptr;
+    if (!made.design.is_null()) designed = point_of(index);
+    const std::int64_t place = index % runs_;
+    if (place % kTrialBlock == 0) block = index - first;
+    trials.push_back(std::move(made));
+    const std::int64_t length = index - first + 1 - block;
+    const bool whole = length == place % kTrialBlock + 1 && (length == kTrialBlock || place + 1 == runs_);
+    if (whole && length > 1) pool_block(trials, static_cast<std::size_t>(block), static_cast<std::size_t>(length));
+  }
+  return trials;
+}
+
 }  // namespace vigil

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -25,9 +26,13 @@ class ShippedPlan {
   explicit ShippedPlan(std::string_view bytes);
   /// As plain_trial() of the plan that was shipped. Throws also std::out_of_range: there is no such trial.
   TrialResult trial(std::int64_t index, const std::atomic<bool>& stop);
-  std::int64_t point_of(std::int64_t index) const { return index / runs_; }
+  /// A range's trials, each kept as small as the merge allows: designs once a point, sums of whole blocks. before:
+  /// called with each index. Throws as trial().
+  std::vector<TrialResult> range(std::int64_t first, std::int64_t count, const std::atomic<bool>& stop,
+                                 const std::function<void(std::int64_t index)>& before);
 
  private:
+  std::int64_t point_of(std::int64_t index) const { return index / runs_; }
   std::shared_ptr<const CampaignPlan> plan_of(std::int64_t point);
 
   std::int64_t runs_ = 1;

@@ -17,6 +17,7 @@ constexpr std::int64_t kDeadline = 10'000;   // ms that a write may take
 constexpr std::size_t kLeastRoom = 1 << 16;  // bytes, where the broker has not said
 
 void check(natsStatus status, const std::string& what) {
+  if (status == NATS_CONNECTION_CLOSED) throw BrokerRefusal("the broker refused the connection for good");
   if (status != NATS_OK) throw std::runtime_error(what + ": " + natsStatus_GetText(status));
 }
 

@@ -38,11 +38,7 @@ class Course {
       look_after();
       publish();
       collect();
-      while (!stop) {
-        const auto next = ledger_.take();
-        if (!next) break;
-        take(next->first, load_trial(next->second));
-      }
+      merge(stop, take);
     }
   }
 
@@ -53,7 +49,7 @@ class Course {
         muster_(muster),
         plan_(plan),
         id_(sha256_hex(shipped + owner).substr(0, 16)),
-        ledger_(plan.first, plan.trials()),
+        ledger_(plan.first, plan.trials(), plan.runs),
         streams_(connection, id_),
         plan_bytes_(shipped.size()),
         voice_(connection, muster, notice(), std::move(shipped)) {}
@@ -67,6 +63,7 @@ class Course {
     return one;
   }
 
+  void merge(const std::atomic<bool>& stop, const Crew::Take& take);
   void look_after();
   void make_streams();
   void give_up(const TrialJob& job);
@@ -86,6 +83,18 @@ class Course {
   Clock::time_point begun_ = Clock::now(), heard_ = Clock::now(), looked_{};
   bool made_ = false, idle_ = false, said_ = false;
 };
+
+/// What is there; a block to its end.
+void Course::merge(const std::atomic<bool>& stop, const Crew::Take& take) {
+  bool more = false;
+  while (!stop || more) {
+    const auto next = ledger_.take();
+    if (!next) return;
+    const TrialResult trial = load_trial(next->second);
+    more = trial.more;
+    take(next->first, trial);
+  }
+}
 
 void Course::make_streams() {
   made_ = streams_.make();

@@ -151,16 +151,10 @@ JobResult Hand::make(OfferedCampaign& campaign, ShippedPlan& plan, const TrialJo
   JobResult result;
   result.job = job;
   const auto begin = Clock::now();
-  std::int64_t designed = -1;  // point whose design is in the result
   try {
-    for (std::int64_t index = job.first; index < job.first + job.count; ++index) {
-      pause_and_die(campaign, index);
-      TrialResult trial = plan.trial(index, campaign.over);
-      const std::int64_t point = plan.point_of(index);
-      if (point == designed) trial.design = nullptr;  // a point keeps its first trial's only
-      if (!trial.design.is_null()) designed = point;
+    const auto before = [&](std::int64_t index) { pause_and_die(campaign, index); };
+    for (const TrialResult& trial : plan.range(job.first, job.count, campaign.over, before))
       result.trials.push_back(save_trial(trial));
-    }
   } catch (const std::exception& failure) {
     result.trials.clear();
     result.error = failure.what();

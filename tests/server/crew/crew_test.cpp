@@ -94,7 +94,7 @@ TEST(Pieces, DamageIsRefused) {
 }
 
 TEST(Ledger, CountsEveryTrialOnceWhateverComes) {
-  TrialLedger ledger(3, 400);
+  TrialLedger ledger(3, 400, 400);
   std::mt19937 random(5);
   std::vector<TrialJob> handed_out;
   std::vector<std::int64_t> taken;
@@ -119,7 +119,7 @@ TEST(Ledger, CountsEveryTrialOnceWhateverComes) {
 }
 
 TEST(Ledger, RunsAheadOnlySoFarAndMakesRangesOfSmallTrials) {
-  TrialLedger ledger(0, 1'000'000);
+  TrialLedger ledger(0, 1'000'000, 1'000'000);
   std::vector<TrialJob> jobs;
   while (const auto job = ledger.next(2)) jobs.push_back(*job);
   EXPECT_EQ(jobs.size(), static_cast<std::size_t>(2 * TrialLedger::kJobsAhead)) << "one by one, at first";
@@ -128,14 +128,16 @@ TEST(Ledger, RunsAheadOnlySoFarAndMakesRangesOfSmallTrials) {
   }
   const auto job = ledger.next(2);
   ASSERT_TRUE(job);
-  EXPECT_NEAR(static_cast<double>(job->count), TrialLedger::kJobSeconds / 0.001, 5);
+  EXPECT_LE(job->count, static_cast<std::int64_t>(TrialLedger::kJobSeconds / 0.001));
+  EXPECT_GT(job->count, static_cast<std::int64_t>(TrialLedger::kJobSeconds / 0.001) - kTrialBlock);
+  EXPECT_EQ((job->first + job->count) % kTrialBlock, 0) << "it ends with a block";
   std::int64_t most = job->first + job->count;
   while (const auto more = ledger.next(2)) most = more->first + more->count;
   EXPECT_LE(most - ledger.merged(), (2 * TrialLedger::kJobsAhead + 1) * job->count);
 }
 
 TEST(Ledger, RangesShrinkTowardsTheEnd) {
-  TrialLedger ledger(0, 200);
+  TrialLedger ledger(0, 200, 200);
   ledger.put(made(*ledger.next(4), 0.0001));
   std::int64_t last = 0, first = 0;
   while (const auto job = ledger.next(4)) {
@@ -151,7 +153,7 @@ TEST(Ledger, RangesShrinkTowardsTheEnd) {
 }
 
 TEST(Ledger, AJobThatNobodySurvivesIsTakenApart) {
-  TrialLedger ledger(0, 1000);
+  TrialLedger ledger(0, 1000, 1000);
   ledger.put(made(*ledger.next(1), 0.05));
   TrialJob job;
   while (job.count < 2) job = *ledger.next(1);
@@ -172,7 +174,7 @@ TEST(Ledger, AJobThatNobodySurvivesIsTakenApart) {
 }
 
 TEST(Ledger, WhatATrialThrewEndsTheCampaign) {
-  TrialLedger ledger(0, 10);
+  TrialLedger ledger(0, 10, 10);
   JobResult result{*ledger.next(1), 0, "out of memory", {}};
   EXPECT_THROW(ledger.put(result), std::runtime_error);
 }
@@ -202,6 +204,37 @@ TEST(ShippedPlan, MakesTheSameTrials) {
   EXPECT_THROW(ShippedPlan(pack("nothing")), std::runtime_error);
   const std::atomic<bool> now{true};
   EXPECT_THROW(shipped.trial(0, now), TrialGivenUp);
+}
+
+// Ranges that begin and end anywhere, across points, with whole blocks and without.
+TEST(ShippedPlan, RangesGiveTheSameTable) {
+  CampaignPlan plan = small_plan();
+  plan.runs = 2 * kTrialBlock + 5;
+  ShippedPlan shipped(ship(plan));
+  const std::atomic<bool> never{false};
+  std::vector<CampaignCell> here(2), there(2);
+  ThreadCrew().run(plan, never, [&](std::int64_t index, const TrialResult& trial) {
+    here[static_cast<std::size_t>(index / plan.runs)].add(trial);
+  });
+  std::int64_t index = 0;
+  bool pooled = false;
+  for (const std::int64_t count : std::vector<std::int64_t>{3, kTrialBlock - 3, kTrialBlock, 40, 2 * plan.runs}) {
+    const std::int64_t left = std::min<std::int64_t>(count, 2 * plan.runs - index);
+    bool more = false;
+    for (const TrialResult& made : shipped.range(index, left, never, [](std::int64_t) {})) {
+      const TrialResult trial = load_trial(save_trial(made));
+      more = trial.more;
+      pooled = pooled || more;
+      there[static_cast<std::size_t>(index++ / plan.runs)].add(trial);
+    }
+    EXPECT_FALSE(more) << "a range ends with what is whole";
+  }
+  EXPECT_EQ(index, 2 * plan.runs);
+  EXPECT_TRUE(pooled);
+  for (std::size_t cell = 0; cell < 2; ++cell) {
+    EXPECT_EQ(here[cell].result().dump(), there[cell].result().dump());
+    EXPECT_EQ(here[cell].save(), there[cell].save());
+  }
 }
 
 TEST(ShippedPlan, ATrialThatCannotBeRunFailsAsItDoesHere) {
