@@ -73,8 +73,8 @@ int work(WorkerCommand& command) {
   options.nats.name = "vigil worker " + options.name;
   options.fingerprint = own_fingerprint();
   read_environment(options);
-  std::cout << "vigil " << version() << " worker " << options.name << " with " << options.threads << " threads"
-            << std::endl;
+  std::cout << "vigil " << version() << " worker " << options.name << " with " << options.threads
+            << (options.threads == 1 ? " thread" : " threads") << std::endl;
   std::atomic<bool> stop{false};
   const SignalWatch watch(stop);
   try {
