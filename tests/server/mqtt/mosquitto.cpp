@@ -54,7 +54,8 @@ void Mosquitto::configure() const {
   for (std::size_t at = more.find("{folder}"); at != std::string::npos; at = more.find("{folder}"))
     more.replace(at, 8, file("."));
   if (tls_)
-    out << "listener " << tls_port_ << " 127.0.0.1\ncafile " << file("ca.crt") << "\ncertfile " << file("server.crt")
+    // On every address of this machine: 127.0.0.2 is to reach it, too.
+    out << "listener " << tls_port_ << " 0.0.0.0\ncafile " << file("ca.crt") << "\ncertfile " << file("server.crt")
         << "\nkeyfile " << file("server.key") << "\n";
   out << more;
 }

@@ -77,6 +77,12 @@ class OverNats : public testing::Test {
     return std::make_unique<BackgroundProcess>(Words{VIGIL_EXECUTABLE} + words + nats() + Words{"--json", json},
                                                broker_->folder().file("campaign.log"));
   }
+  /// What everybody said, where something goes wrong.
+  std::string said(const BackgroundProcess& campaign) const {
+    std::string all = campaign.output() + "\nbroker:\n" + broker_->output();
+    for (const auto& worker : workers_) all += "\nworker:\n" + worker->output();
+    return all;
+  }
   std::string file(const std::string& name) const { return broker_->folder().file(name); }
 
   std::unique_ptr<BrokerProcess> broker_;
@@ -119,22 +125,22 @@ TEST_F(OverNats, FiveKillsAndEveryTrialCountsOnce) {
   hire(3, slow);
   const Words words{"campaign", "consensus", "--runs", "1200", "--db", file("a.db")};
   auto campaign = start(words, file("a.json"));
-  ASSERT_TRUE(reaches(file("a.db"), 150)) << campaign->output();
+  ASSERT_TRUE(reaches(file("a.db"), 150)) << said(*campaign);
   EXPECT_EQ(workers_[0]->end(SIGKILL), 128 + SIGKILL);
-  ASSERT_TRUE(reaches(file("a.db"), 300)) << campaign->output();
+  ASSERT_TRUE(reaches(file("a.db"), 300)) << said(*campaign);
   broker_->kill();
   broker_->start();
-  ASSERT_TRUE(reaches(file("a.db"), 500)) << campaign->output();
+  ASSERT_TRUE(reaches(file("a.db"), 500)) << said(*campaign);
   hire(1, slow);
   EXPECT_EQ(workers_[1]->end(SIGKILL), 128 + SIGKILL);
-  ASSERT_TRUE(reaches(file("a.db"), 700)) << campaign->output();
+  ASSERT_TRUE(reaches(file("a.db"), 700)) << said(*campaign);
   EXPECT_EQ(campaign->end(SIGKILL), 128 + SIGKILL);
   campaign = start(words, file("a.json"));
-  ASSERT_TRUE(reaches(file("a.db"), 900)) << campaign->output();
+  ASSERT_TRUE(reaches(file("a.db"), 900)) << said(*campaign);
   broker_->kill();
   broker_->start(false);  // and what it had stored is gone
-  ASSERT_EQ(campaign->wait(), 0) << campaign->output();
-  EXPECT_NE(campaign->output().find("goes on"), std::string::npos) << campaign->output();
+  ASSERT_EQ(campaign->wait(), 0) << said(*campaign);
+  EXPECT_NE(campaign->output().find("goes on"), std::string::npos) << said(*campaign);
   const Outcome here = vigil_command({"campaign", "consensus", "--runs", "1200", "--db", file("b.db"), "--json", "-"});
   EXPECT_EQ(untimed(read(file("a.json"))), untimed(here.output));
   EXPECT_EQ(rows_of(file("a.db")), rows_of(file("b.db")));

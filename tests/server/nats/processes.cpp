@@ -114,21 +114,26 @@ std::string BrokerProcess::missing() {
 BrokerProcess::BrokerProcess(std::string lines) : lines_(std::move(lines)) {
   for (int attempt = 0; attempt < 5; ++attempt) {
     port_ = free_port();
-    start();
-    if (process_->running()) return;
+    if (launch()) return;
   }
   throw std::runtime_error("the broker did not start: " + process_->output());
 }
 
 void BrokerProcess::start(bool keep_store) {
-  const std::string store = folder_.file("store"), config = folder_.file("broker.conf");
-  if (!keep_store) std::filesystem::remove_all(store);
-  std::ofstream(config) << "listen: 127.0.0.1:" << port_ << "\njetstream { store_dir: \"" << store << "\" }\n"
+  if (!keep_store) std::filesystem::remove_all(folder_.file("store"));
+  // Its port may be another's for a moment: of a connection, say, that was made while it was away.
+  if (!eventually([this] { return launch(); })) throw std::runtime_error("no broker again: " + process_->output());
+}
+
+bool BrokerProcess::launch() {
+  const std::string config = folder_.file("broker.conf");
+  std::ofstream(config) << "listen: 127.0.0.1:" << port_ << "\njetstream { store_dir: \"" << folder_.file("store")
+                        << "\" }\n"
                         << lines_ << "\n";
   process_.reset();
   process_ = std::make_unique<BackgroundProcess>(std::vector<std::string>{executable(), "-c", config},
                                                  folder_.file("broker.log"));
-  eventually([this] { return answers(port_) || !process_->running(); });
+  return eventually([this] { return answers(port_) || !process_->running(); }) && process_->running();
 }
 
 std::unique_ptr<BackgroundProcess> start_worker(const BrokerProcess& broker, const std::string& name,

@@ -44,8 +44,10 @@ class BrokerProcess {
   void kill() { process_->end(9); }
   /// On the same port, with what it had stored or without.
   void start(bool keep_store = true);
+  std::string output() const { return process_->output(); }
 
  private:
+  bool launch();
   TemporaryFolder folder_;
   std::string lines_;
   int port_ = 0;
