@@ -24,11 +24,9 @@ std::int64_t TrialLedger::size(int threads) const {
   return short_of_block ? count : count - (block + count) % kTrialBlock;
 }
 
-bool TrialLedger::whole(const TrialJob& job) const {
-  for (std::int64_t index = job.first; index < job.first + job.count; ++index) {
-    if (!missing(index)) return false;
-  }
-  return true;
+bool TrialLedger::asked(const TrialJob& job) const {
+  const auto place = under_way_.find(job.first);
+  return place != under_way_.end() && place->second.count == job.count;
 }
 
 TrialJob TrialLedger::publish(TrialJob job) {
@@ -61,7 +59,7 @@ std::optional<TrialJob> TrialLedger::next(int threads) {
 void TrialLedger::put(JobResult result) {
   if (!result.error.empty()) throw std::runtime_error(result.error);
   const TrialJob& job = result.job;
-  if (job.first + job.count > next_ || !whole(job)) return;  // nobody asked for these, or they are there
+  if (!asked(job)) return;
   const double each = result.seconds / static_cast<double>(job.count);
   if (std::isfinite(each) && each > 0) seconds_ = seconds_ <= 0 ? each : (1 - kNewest) * seconds_ + kNewest * each;
   for (std::int64_t i = 0; i < job.count; ++i) {
@@ -93,8 +91,8 @@ void TrialLedger::again() {
 bool TrialLedger::exhausted(const TrialJob& job) {
   const auto place = under_way_.find(job.first);
   if (place == under_way_.end() || place->second != job) return false;  // of an earlier attempt
-  under_way_.erase(place);
   if (job.count == 1) return missing(job.first);
+  under_way_.erase(place);
   for (std::int64_t index = job.first + job.count - 1; index >= job.first; --index) {
     if (missing(index)) again_.push_back({index, 1, job.attempt + 1});
   }

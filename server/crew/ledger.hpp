@@ -47,7 +47,9 @@ class TrialLedger {
   std::int64_t size(int threads) const;
   bool missing(std::int64_t index) const { return index >= merged_ && !results_.contains(index); }
   bool missing(const TrialJob& job) const;  ///< any of it
-  bool whole(const TrialJob& job) const;    ///< all of it is missing
+  /// Whether exactly these trials are under way. A worker may still bring a job of the same campaign's last process: it
+  /// overlaps ours, and what it covers in part would be missing for ever.
+  bool asked(const TrialJob& job) const;
   TrialJob publish(TrialJob job);
 
   std::int64_t trials_, runs_, merged_, next_;

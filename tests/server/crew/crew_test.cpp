@@ -173,6 +173,22 @@ TEST(Ledger, AJobThatNobodySurvivesIsTakenApart) {
   EXPECT_EQ(static_cast<std::int64_t>(alone.size()), job.count);
 }
 
+// A worker brings what the campaign's last process, killed since, had asked of it.
+TEST(Ledger, AJobOfAnotherLedgerLeavesNoHole) {
+  TrialLedger ledger(0, 1000, 1000);
+  ledger.put(made(*ledger.next(1), 0.05));
+  TrialJob job;
+  while (job.count < 2) job = *ledger.next(1);
+  while (ledger.next(1)) {
+  }
+  ledger.put(made({job.first + 1, job.count, 1}, 0.05));
+  ledger.put(made(job, 0.05));
+  std::int64_t last = -1;
+  for (std::int64_t index = 1; index < job.first; ++index) ledger.put(made({index, 1, 1}, 0.05));
+  while (const auto next = ledger.take()) last = next->first;
+  EXPECT_EQ(last, job.first + job.count - 1);
+}
+
 TEST(Ledger, WhatATrialThrewEndsTheCampaign) {
   TrialLedger ledger(0, 10, 10);
   JobResult result{*ledger.next(1), 0, "out of memory", {}};
