@@ -5,17 +5,10 @@
 
 #include "engine/metrics/paired_law.hpp"
 #include "engine/run/campaign.hpp"
+#include "tests/engine/campaign/everything.hpp"
 
 namespace vigil::save_test {
 namespace {
-
-std::string everything(const CampaignTable& table) {
-  Json all;
-  for (const MetricSummary& row : table.summary()) all["metrics"].push_back(to_json(row));
-  for (const PairedSummary& row : table.paired()) all["paired"].push_back(to_json(row));
-  for (const DetectionSummary& row : table.detection()) all["detection"].push_back(to_json(row));
-  return all.dump();
-}
 
 TrialResult with_values(const std::vector<std::tuple<std::string, std::string, double>>& values) {
   TrialResult trial;

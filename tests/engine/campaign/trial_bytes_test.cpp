@@ -6,17 +6,10 @@
 #include "engine/core/bytes.hpp"
 #include "engine/run/campaign.hpp"
 #include "engine/run/trace.hpp"
+#include "tests/engine/campaign/everything.hpp"
 
 namespace vigil::trial_bytes_test {
 namespace {
-
-std::string everything(const CampaignTable& table) {
-  Json all;
-  for (const MetricSummary& row : table.summary()) all["metrics"].push_back(to_json(row));
-  for (const PairedSummary& row : table.paired()) all["paired"].push_back(to_json(row));
-  for (const DetectionSummary& row : table.detection()) all["detection"].push_back(to_json(row));
-  return all.dump();
-}
 
 class TrialBytes : public testing::TestWithParam<const char*> {};
 
