@@ -6,13 +6,13 @@
 #include "db/chunk.hpp"
 #include "db/rollup.hpp"
 #include "db/schema.hpp"
+#include "engine/core/missing.hpp"
 
 namespace vigil {
 
 namespace {
 
 constexpr std::size_t kMostSentences = 50;
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 

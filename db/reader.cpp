@@ -31,8 +31,6 @@ SignalKind kind_of(const std::string& name) {
   return name == "category" ? SignalKind::category : SignalKind::scalar;
 }
 
-Json parsed(const std::string& text) { return text.empty() ? Json() : Json::parse(text); }
-
 }  // namespace
 
 std::vector<Signal> LogReader::signals(RunId run) const {

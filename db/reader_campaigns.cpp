@@ -7,8 +7,6 @@
 namespace vigil {
 namespace {
 
-Json parsed(const std::string& text) { return text.empty() ? Json() : Json::parse(text); }
-
 const std::string kCampaignColumns =
     "SELECT id,state,request,result,trials,created,ended,error,"
     "(SELECT coalesce(max(position)+1,0) FROM campaign_trial WHERE campaign=campaign.id),"

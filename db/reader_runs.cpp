@@ -110,7 +110,7 @@ std::optional<RunRow> LogReader::run(RunId id) const {
 RunPage LogReader::list(const Query& filter, std::string_view sort, int limit, std::string_view cursor) const {
   if (limit < 1 || limit > 1000) throw QueryError(0, "limit is " + std::to_string(limit) + "; expected 1 to 1000.");
   auto values = filter.values();
-  const RunOrder order(sort, cursor, values);
+  const RowOrder order(sort, cursor, values);
   const std::string sql = kRunColumns + "," + order.key() + " AS sort_key FROM run WHERE deleted=0 AND (" +
                           filter.sql() + ") AND " + order.after() + order.clause() + " LIMIT " +
                           std::to_string(limit + 1);

@@ -8,8 +8,12 @@
 
 #include "db/database.hpp"
 #include "db/reader.hpp"
+#include "engine/core/json.hpp"
 
 namespace vigil {
+
+/// A column of JSON; null where nothing was written.
+inline Json parsed(const std::string& text) { return text.empty() ? Json() : Json::parse(text); }
 
 struct LogReader::State {
   explicit State(std::string file) : path(std::move(file)) {}

@@ -16,6 +16,8 @@ namespace vigil {
 using RunId = std::int64_t;
 /// Nanoseconds since 1970-01-01 UTC.
 using WallTime = std::int64_t;
+/// An idempotency key is remembered so long.
+inline constexpr WallTime kKeyLife = 24LL * 3600 * 1'000'000'000;
 
 /// The log cannot do what was asked; what() is one sentence for a person.
 class LogError : public std::runtime_error {

@@ -5,12 +5,9 @@
 
 #include "db/chunk.hpp"
 #include "db/schema.hpp"
+#include "engine/core/missing.hpp"
 
 namespace vigil {
-
-namespace {
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-}
 
 std::optional<RunLayout> read_layout(Database& database, RunId run) {
   RunLayout layout;

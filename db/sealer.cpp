@@ -5,12 +5,9 @@
 
 #include "db/chunk.hpp"
 #include "db/schema.hpp"
+#include "engine/core/missing.hpp"
 
 namespace vigil {
-
-namespace {
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-}
 
 Sealer::Sealer(RunId run, std::vector<int> signals, std::int64_t every, double dt)
     : run_(run),

@@ -59,7 +59,7 @@ std::string metric_key(const std::string& field, std::vector<Query::Value>& valu
 
 }  // namespace
 
-RunOrder::RunOrder(std::string_view sort, std::string_view cursor, std::vector<Query::Value>& values)
+RowOrder::RowOrder(std::string_view sort, std::string_view cursor, std::vector<Query::Value>& values)
     : sort_(sort.empty() ? "-id" : sort) {
   falling_ = sort_[0] == '-';
   const std::string field = sort_.substr(falling_ ? 1 : 0);
@@ -68,7 +68,7 @@ RunOrder::RunOrder(std::string_view sort, std::string_view cursor, std::vector<Q
   if (!cursor.empty()) read_cursor(cursor, values);
 }
 
-void RunOrder::read_cursor(std::string_view cursor, std::vector<Query::Value>& values) {
+void RowOrder::read_cursor(std::string_view cursor, std::vector<Query::Value>& values) {
   const Json read = Json::parse(from_hex(cursor), nullptr, false);
   const bool sound = read.is_array() && read.size() == 3 && read[0] == sort_ && read[2].is_number_integer() &&
                      (read[1].is_null() || read[1].is_number() || read[1].is_string());
@@ -92,12 +92,12 @@ void RunOrder::read_cursor(std::string_view cursor, std::vector<Query::Value>& v
   after_ = "(" + key_ + beyond + place + " OR (" + key_ + "=" + place + " AND " + later + ") OR " + key_ + " IS NULL)";
 }
 
-std::string RunOrder::clause() const {
+std::string RowOrder::clause() const {
   const std::string way = falling_ ? " DESC" : " ASC";
   return " ORDER BY sort_key IS NULL,sort_key" + way + ",run.id" + way;
 }
 
-std::string RunOrder::cursor_of(const Statement& row, int key_column, std::int64_t id) const {
+std::string RowOrder::cursor_of(const Statement& row, int key_column, std::int64_t id) const {
   Json key;
   if (!row.null(key_column)) {
     const auto type = row.type(key_column);

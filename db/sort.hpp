@@ -10,10 +10,10 @@
 
 namespace vigil {
 
-class RunOrder {
+class RowOrder {
  public:
   /// Adds what it binds to `values`. Throws QueryError on an unknown field or a cursor that is not of this order.
-  RunOrder(std::string_view sort, std::string_view cursor, std::vector<Query::Value>& values);
+  RowOrder(std::string_view sort, std::string_view cursor, std::vector<Query::Value>& values);
   const std::string& key() const { return key_; }      ///< the expression sorted by
   const std::string& after() const { return after_; }  ///< a condition: behind the cursor
   std::string clause() const;                          ///< " ORDER BY …" over the alias sort_key

@@ -6,8 +6,6 @@ namespace vigil {
 
 namespace {
 
-constexpr WallTime kKeyLife = 24LL * 3600 * 1'000'000'000;
-
 template <class Value, class Dump>
 void set_column(Database& database, RunId run, const char* sql, const std::optional<Value>& value, Dump to_column) {
   if (value) database.cached(sql).all(to_column(*value), run).run();

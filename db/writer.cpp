@@ -39,7 +39,7 @@ void LogWriter::update(RunId run, const RunUpdate& update) {
 }
 
 void LogWriter::post(RunId run, const RunUpdate& update) {
-  Job job;
+  LogJob job;
   job.apply = [run, update](Database& database) { apply_update(database, run, update); };
   job.durable = true;
   state_->submit(std::move(job));
@@ -47,7 +47,7 @@ void LogWriter::post(RunId run, const RunUpdate& update) {
 
 void LogWriter::finish(RunId run, const RunUpdate& update) {
   if (const auto logged = state_->find(run)) logged->intake.close();
-  Job job;
+  LogJob job;
   job.apply = [run, update](Database& database) { apply_update(database, run, update); };
   job.durable = true;
   job.seals = run;
@@ -55,7 +55,7 @@ void LogWriter::finish(RunId run, const RunUpdate& update) {
 }
 
 void LogWriter::flush() {
-  Job job;
+  LogJob job;
   job.everything = true;
   state_->submit_and_wait(std::move(job));
 }
@@ -77,7 +77,7 @@ void LogWriter::set_signals(RunId run, const Catalogue& catalogue, const LogSele
   }
   chosen.every = std::max<std::int64_t>(1, chosen.every);
   auto logged = std::make_shared<LoggedRun>(run, chosen, policy, state_->options.queue_bytes, dt);
-  Job job;
+  LogJob job;
   job.apply = [run, all = catalogue.all(), chosen, policy, dt](Database& database) {
     insert_signals(database, run, all, chosen.signals, chosen.every, policy, dt);
   };
@@ -100,7 +100,7 @@ void LogWriter::set_policy(RunId run, LogPolicy policy) {
 }
 
 void LogWriter::mark(RunId run, const Mark& mark) {
-  Job job;
+  LogJob job;
   job.apply = [run, mark](Database& database) { insert_mark(database, run, mark); };
   job.durable = true;
   state_->submit(std::move(job), false);

@@ -8,8 +8,6 @@
 namespace vigil {
 namespace {
 
-constexpr WallTime kKeyLife = 24LL * 3600 * 1'000'000'000;
-
 std::optional<std::string> text_of(const Json& json) {
   return json.is_null() ? std::nullopt : std::optional(dump(json));
 }
@@ -116,7 +114,7 @@ void LogWriter::set_cell_designs(std::int64_t campaign, std::int64_t cell, const
 }
 
 std::future<void> LogWriter::add_trials(std::int64_t campaign, CampaignBatch batch) {
-  Job job;
+  LogJob job;
   job.apply = [campaign, batch = std::make_shared<const CampaignBatch>(std::move(batch))](Database& database) {
     auto there = database.cached("SELECT 1 FROM campaign WHERE id=?");
     if (!there.bind(1, campaign).step()) missing(campaign);

@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-void deliver(Job& job, const std::exception_ptr& error) {
+void deliver(LogJob& job, const std::exception_ptr& error) {
   if (!job.promise) return;
   if (error) {
     job.promise->set_exception(error);
@@ -21,7 +21,7 @@ void deliver(Job& job, const std::exception_ptr& error) {
 
 }  // namespace
 
-void LogWriter::State::run_job(Job& job) {
+void LogWriter::State::run_job(LogJob& job) {
   job.error = nullptr;
   if (!job.apply) return;
   database->cached("SAVEPOINT job").run();
@@ -95,14 +95,14 @@ bool LogWriter::State::pause(Round& round, std::chrono::milliseconds length, con
   if (stop && stop_deadline_ == Steady::time_point()) stop_deadline_ = Steady::now() + patience;
   const bool over = stop && Steady::now() >= stop_deadline_;
   const auto failure = std::make_exception_ptr(why);
-  std::vector<Job> arrived;
+  std::vector<LogJob> arrived;
   for (auto& job : queue) {
     // A job that takes samples along has to wait for the next round, which gathers them.
     (job.everything || job.seals != 0 ? arrived : round.jobs).push_back(std::move(job));
   }
   queue = std::move(arrived);
-  const auto expire = [&](std::vector<Job>& jobs) {
-    std::erase_if(jobs, [&](Job& job) {
+  const auto expire = [&](std::vector<LogJob>& jobs) {
+    std::erase_if(jobs, [&](LogJob& job) {
       if (!over && (!job.promise || Steady::now() < job.deadline)) return false;
       deliver(job, failure);
       return !job.durable;

@@ -60,7 +60,7 @@ LogWriter::State::~State() {
   sqlite3_wal_checkpoint_v2(database->handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
 }
 
-void LogWriter::State::submit(Job job, bool hurry) {
+void LogWriter::State::submit(LogJob job, bool hurry) {
   const std::scoped_lock guard(mutex);
   queue.push_back(std::move(job));
   if (!hurry) return;
@@ -68,7 +68,7 @@ void LogWriter::State::submit(Job job, bool hurry) {
   wake.notify_one();
 }
 
-void LogWriter::State::submit_and_wait(Job job) {
+void LogWriter::State::submit_and_wait(LogJob job) {
   job.promise = std::make_shared<std::promise<void>>();
   job.deadline = Steady::now() + std::chrono::milliseconds(options.patience_milliseconds);
   auto done = job.promise->get_future();
@@ -77,7 +77,7 @@ void LogWriter::State::submit_and_wait(Job job) {
 }
 
 void LogWriter::State::commit_now(std::function<void(Database&)> apply) {
-  Job job;
+  LogJob job;
   job.apply = std::move(apply);
   submit_and_wait(std::move(job));
 }

@@ -28,7 +28,7 @@ struct LoggedRun {
 };
 
 /// One change that is not samples. Runs inside a savepoint, perhaps several times until a commit holds.
-struct Job {
+struct LogJob {
   std::function<void(Database&)> apply;            ///< may be empty
   std::shared_ptr<std::promise<void>> promise;     ///< null: nobody waits
   std::chrono::steady_clock::time_point deadline;  ///< of who waits
@@ -44,7 +44,7 @@ struct Round {
   std::vector<TailRow> tail;
   std::map<RunId, std::int64_t> newest;  ///< tick
   std::vector<std::pair<RunId, GapRow>> gaps;
-  std::vector<Job> jobs;
+  std::vector<LogJob> jobs;
   struct Release {
     std::shared_ptr<LoggedRun> run;
     std::size_t bytes = 0;
@@ -60,8 +60,8 @@ struct LogWriter::State {
   ~State();
 
   /// Hands over without waiting. Without hurry it may wait for the next commit of the tail.
-  void submit(Job job, bool hurry = true);
-  void submit_and_wait(Job job);  ///< throws what the job threw, or LogError (disk)
+  void submit(LogJob job, bool hurry = true);
+  void submit_and_wait(LogJob job);  ///< throws what the job threw, or LogError (disk)
   void commit_now(std::function<void(Database&)> apply);
   std::shared_ptr<LoggedRun> find(RunId run) const;
   std::shared_ptr<LoggedRun> remove(RunId run);
@@ -74,7 +74,7 @@ struct LogWriter::State {
 
   mutable std::mutex mutex;  ///< guards the next four
   std::condition_variable wake;
-  std::vector<Job> queue;
+  std::vector<LogJob> queue;
   bool stop = false;
   bool awake = false;  ///< a run has gathered enough
 
@@ -95,7 +95,7 @@ struct LogWriter::State {
   void seal_everything(Round& round);
   void commit(Round& round);
   void write(Round& round);
-  void run_job(Job& job);
+  void run_job(LogJob& job);
   void settle(Round& round);
   bool pause(Round& round, std::chrono::milliseconds length, const LogError& why);
   void set_trouble(const std::string& sentence);

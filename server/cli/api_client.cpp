@@ -38,12 +38,12 @@ std::string at(const std::string& path) { return kBase + path; }
 
 }  // namespace
 
-void ServerOptions::add_to(CLI::App& command) {
+void ServerAddress::add_to(CLI::App& command) {
   command.add_option("--server", server, "http://127.0.0.1:8080 without");
   command.add_option("--token-file", token_file, "first line: the token");
 }
 
-ApiClient::ApiClient(const ServerOptions& options) : client_(std::make_unique<httplib::Client>(options.server)) {
+ApiClient::ApiClient(const ServerAddress& options) : client_(std::make_unique<httplib::Client>(options.server)) {
   if (!client_->is_valid() || !options.server.starts_with("http://"))
     throw UserError("--server is " + options.server + "; expected http://HOST:PORT");
   client_->set_read_timeout(60);

@@ -15,7 +15,7 @@ class Result;
 
 namespace vigil {
 
-struct ServerOptions {
+struct ServerAddress {
   std::string server = "http://127.0.0.1:8080", token_file;
   /// --server and --token-file.
   void add_to(CLI::App& command);
@@ -26,7 +26,7 @@ struct ServerOptions {
 class ApiClient {
  public:
   /// Throws UserError for an address that is none, or a token file that cannot be read.
-  explicit ApiClient(const ServerOptions& options);
+  explicit ApiClient(const ServerAddress& options);
   ~ApiClient();
 
   Json get(const std::string& path);

@@ -13,7 +13,7 @@ namespace vigil {
 namespace {
 
 struct AttackCommand {
-  ServerOptions server;
+  ServerAddress server;
   std::string run, type, id, end, params = "{}";
   std::vector<std::string> on;
   std::optional<std::int64_t> from, to;
@@ -43,7 +43,7 @@ int attack(const AttackCommand& command) {
 }
 
 struct TuneCommand {
-  ServerOptions server;
+  ServerAddress server;
   std::string run;
   std::vector<std::string> sets;
 };
@@ -59,7 +59,7 @@ int tune(const TuneCommand& command) {
 }
 
 struct ForkCommand {
-  ServerOptions server;
+  ServerAddress server;
   std::string run, patch, pace;
   std::int64_t k = 0;
 };
@@ -79,7 +79,7 @@ int fork(const ForkCommand& command) {
 }
 
 struct BundleCommand {
-  ServerOptions server;
+  ServerAddress server;
   std::string run, out = "-";
 };
 

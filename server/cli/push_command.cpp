@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kRowsACall = 500;
 
 struct PushCommand {
-  ServerOptions server;
+  ServerAddress server;
   std::string run, file;
 };
 
