@@ -9,12 +9,11 @@
 
 #include "engine/core/describe.hpp"
 #include "engine/core/input_error.hpp"
+#include "engine/core/missing.hpp"
 #include "engine/identify/regression.hpp"
 
 namespace vigil::identify {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Complete rows: what the outputs of row k are explained by, and the outputs.
 struct Sample {
@@ -135,7 +134,7 @@ Arx fit(const Records& records, Eigen::Index from, Eigen::Index to, int order, i
 }
 
 Eigen::MatrixXd residuals(const Arx& model, const Records& records) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Constant(records.outputs.rows(), records.outputs.cols(), kNone);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Constant(records.outputs.rows(), records.outputs.cols(), kMissing);
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
     if (!complete(records, k, model.order(), model.lag)) continue;
     Eigen::VectorXd left = records.outputs.row(k).transpose() - model.c;
@@ -151,7 +150,7 @@ Eigen::VectorXd free_run_error(const Arx& model, const Records& records, Eigen::
   const Eigen::Index n = records.outputs.cols(), rows = records.outputs.rows();
   Eigen::Index k = std::max<Eigen::Index>(from, std::max(model.order(), model.lag));
   while (k < rows && !complete(records, k, model.order(), model.lag)) ++k;
-  if (k >= rows) return Eigen::VectorXd::Constant(n, kNone);
+  if (k >= rows) return Eigen::VectorXd::Constant(n, kMissing);
   Eigen::MatrixXd own = records.outputs;
   Eigen::VectorXd input = records.inputs.row(k - model.lag).transpose();
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(n), count = sum;

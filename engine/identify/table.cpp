@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/describe.hpp"
 #include "engine/core/input_error.hpp"
+#include "engine/core/missing.hpp"
 #include "engine/core/params.hpp"
 
 namespace vigil::identify {
@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::size_t kMostColumns = 10'000;
 constexpr double kLargest = 1e100;  ///< squares and their sums stay finite
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view trimmed(std::string_view cell) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };

@@ -9,6 +9,8 @@
 #include <complex>
 #include <limits>
 
+#include "engine/linalg/covariance.hpp"
+
 namespace vigil {
 namespace {
 
@@ -29,9 +31,7 @@ bool well_posed(const Matrix& A, const Matrix& C, const Matrix& Q, const Matrix&
                     R.rows() == p && R.cols() == p;
   if (!fits || !A.allFinite() || !C.allFinite() || !Q.allFinite() || !R.allFinite()) return false;
   if (!symmetric(Q) || !symmetric(R)) return false;
-  const double least_q = Eigen::SelfAdjointEigenSolver<Matrix>(Q, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  const double least_r = Eigen::SelfAdjointEigenSolver<Matrix>(R, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  return least_q >= -1e-12 * Q.cwiseAbs().maxCoeff() && least_r > 0;
+  return least_eigenvalue(Q) >= -1e-12 * Q.cwiseAbs().maxCoeff() && least_eigenvalue(R) > 0;
 }
 
 /// X of F X + X F' + W = 0 for F with a negative abscissa: by F's Schur form, one column after the other.

@@ -33,8 +33,7 @@ void check_covariance(const Eigen::MatrixXd& matrix, const std::string& pointer,
   const double size = matrix.cwiseAbs().maxCoeff();
   if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size)
     refuse(matrix, pointer, "is not symmetric", kind);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
-  const double smallest = eigen.eigenvalues()[0];
+  const double smallest = least_eigenvalue(matrix);
   if (smallest < -1e-12 * size)
     refuse(matrix, pointer, fmt::format("has the negative eigenvalue {:.6g}", smallest), kind);
   if (kind == Definiteness::definite && smallest <= 0) refuse(matrix, pointer, "is not positive definite", kind);
@@ -44,6 +43,10 @@ Eigen::MatrixXd read_covariance(const Json& value, int n, const std::string& poi
   Eigen::MatrixXd matrix = square_matrix(value, n, pointer);
   check_covariance(matrix, pointer, kind);
   return 0.5 * (matrix + matrix.transpose());
+}
+
+double least_eigenvalue(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 Eigen::MatrixXd symmetric_root(const Eigen::MatrixXd& matrix) {

@@ -20,5 +20,7 @@ void check_covariance(const Eigen::MatrixXd& matrix, const std::string& pointer,
 Eigen::MatrixXd symmetric_root(const Eigen::MatrixXd& matrix);
 /// The lower Cholesky factor of a positive semidefinite matrix; the column of a zero pivot is zero.
 Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& matrix);
+/// Of a symmetric matrix, n >= 1; its lower triangle is read.
+double least_eigenvalue(const Eigen::MatrixXd& matrix);
 
 }  // namespace vigil

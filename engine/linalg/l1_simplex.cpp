@@ -9,7 +9,7 @@ namespace vigil {
 namespace {
 
 constexpr int kPivotsPerRow = 100;
-constexpr double kIndependent = 1e-9;  // of a column: what must be left of it beside the chosen ones
+constexpr double kPivot = 1e-9;        // of a column: what must be left of it beside the chosen ones
 constexpr double kPriceMargin = 1e-9;  // a reduced cost above this is an improvement
 constexpr double kSmallPivot = 1e-10;  // an entry that moves slower towards zero does not block
 constexpr double kZero = 1e-11;        // of the largest basic entry: no sign below this
@@ -51,7 +51,7 @@ bool L1Simplex::choose_basis(const Eigen::Ref<const Eigen::MatrixXd>& D,
     for (int pass = 0; pass < 2; ++pass) {  // Gram-Schmidt, twice: once loses orthogonality
       for (Eigen::Index c = 0; c < chosen; ++c) candidate -= orthonormal_.col(c).dot(candidate) * orthonormal_.col(c);
     }
-    if (!(candidate.norm() > kIndependent * length)) continue;
+    if (!(candidate.norm() > kPivot * length)) continue;
     candidate.normalize();
     basis_[at(chosen++)] = column;
     in_basis_[at(column)] = 1;

@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double kUndamped = 1e-8;
+constexpr double kDecays = 1e-8;
 constexpr double kSame =
     1e-7;  // of the larger: a double eigenvalue comes out as two that differ by the root of rounding
 
@@ -106,7 +106,7 @@ std::optional<Modes> Modes::of(const MatrixXd& A, TimeKind time) {
 
 Fate Modes::fate(const Mode& mode) const {
   const double excess = time_ == TimeKind::ticks ? size_of(mode, time_) - 1 : size_of(mode, time_) / norm_;
-  return excess < -kUndamped ? Fate::decays : (excess > kUndamped ? Fate::grows : Fate::stays);
+  return excess < -kDecays ? Fate::decays : (excess > kDecays ? Fate::grows : Fate::stays);
 }
 
 bool Modes::stable() const {

@@ -8,7 +8,7 @@ namespace vigil {
 namespace {
 
 constexpr double kDependent = 1e-12;  // squared, of the largest column
-constexpr double kRounding = 1e-13;   // of ||y||
+constexpr double kExplained = 1e-13;  // of ||y||
 
 /// One pass that vectorises, unlike allFinite.
 template <class Matrix>
@@ -33,7 +33,7 @@ bool Omp::begin(const Eigen::Ref<const Eigen::VectorXd>& squares, double norm_y)
   entries_.setZero();
   count_ = 0;
   residual_ = norm_y;
-  least_gain_ = kRounding * norm_y;
+  least_gain_ = kExplained * norm_y;
   const double largest = squares.size() > 0 ? squares.maxCoeff() : 0;
   least_square_ = std::max(kDependent * largest, std::numeric_limits<double>::min());
   for (Eigen::Index j = 0; j < squares.size(); ++j) {

@@ -11,6 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/linalg/covariance.hpp"
+
 namespace vigil {
 namespace {
 
@@ -106,7 +108,7 @@ std::vector<double> smallest_eigenvalues(const SdpProblem& problem, const Eigen:
       least.push_back(0);
       continue;
     }
-    least.push_back(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block, Eigen::EigenvaluesOnly).eigenvalues()[0]);
+    least.push_back(least_eigenvalue(block));
   }
   return least;
 }

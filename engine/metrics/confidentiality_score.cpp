@@ -1,17 +1,17 @@
 #include "engine/metrics/confidentiality_score.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "engine/core/missing.hpp"
 
 namespace vigil {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kParts = 5;  // the last of which is late
 
 }  // namespace
 
-SquareTally::SquareTally(std::optional<std::int64_t> last) : now_(kNone) {
+SquareTally::SquareTally(std::optional<std::int64_t> last) : now_(kMissing) {
   if (last) late_from_ = *last - *last / kParts + 1;
 }
 
@@ -24,6 +24,6 @@ void SquareTally::add(std::int64_t k, double square) {
   ++count_;
 }
 
-double SquareTally::late_mean() const { return count_ > 0 ? late_ / static_cast<double>(count_) : kNone; }
+double SquareTally::late_mean() const { return count_ > 0 ? late_ / static_cast<double>(count_) : kMissing; }
 
 }  // namespace vigil

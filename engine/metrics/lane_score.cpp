@@ -3,22 +3,20 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "engine/core/missing.hpp"
 #include "engine/linalg/chi_square.hpp"
 
 namespace vigil {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// v' A^-1 v by Cholesky; NaN where A is not positive definite.
 double inverse_form(const double* a, const BoundedVector& v) {
   const auto n = v.size();
   const BoundedMatrix A = Eigen::Map<const Eigen::MatrixXd>(a, n, n);
   const Eigen::LLT<BoundedMatrix> cholesky(A);
-  if (cholesky.info() != Eigen::Success) return kNone;
+  if (cholesky.info() != Eigen::Success) return kMissing;
   const BoundedVector whitened = cholesky.matrixL().solve(v);
   return whitened.squaredNorm();
 }
@@ -37,7 +35,7 @@ void LaneScore::Sum::add(double value) {
   ++count;
 }
 
-double LaneScore::Sum::mean() const { return count == 0 ? kNone : total / static_cast<double>(count); }
+double LaneScore::Sum::mean() const { return count == 0 ? kMissing : total / static_cast<double>(count); }
 
 LaneScore::LaneScore(const Plant& plant, std::vector<std::string> outputs, ScoreRules rules,
                      std::vector<std::vector<int>> components)
@@ -93,8 +91,8 @@ TickScore LaneScore::judge(std::int64_t k, int output, const Eigen::VectorXd& tr
     const double value = e[found - own.begin()];
     if (rules_.mse[f].window.holds(k)) mse_[f * outputs_.size() + static_cast<std::size_t>(output)].add(value * value);
   }
-  score.nees = belief.covariance == nullptr ? kNone : inverse_form(belief.covariance, BoundedVector(e));
-  score.nis = kNone;
+  score.nees = belief.covariance == nullptr ? kMissing : inverse_form(belief.covariance, BoundedVector(e));
+  score.nis = kMissing;
   if (belief.innovation != nullptr) {
     const Eigen::Map<const Eigen::VectorXd> r(belief.innovation, belief.innovation_size);
     score.nis = belief.innovation_covariance == nullptr ? r.squaredNorm()

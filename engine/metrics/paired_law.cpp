@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "engine/core/missing.hpp"
 
 namespace vigil {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kExactRanks = 30;
 
 /// The continued fraction of the incomplete beta function, by Lentz.
@@ -112,12 +112,12 @@ double normal_p(const std::vector<Ranked>& all, std::size_t sum) {
 }  // namespace
 
 double student_cdf(double t, double degrees) {
-  if (std::isnan(t) || !(degrees > 0)) return kNone;
+  if (std::isnan(t) || !(degrees > 0)) return kMissing;
   return t < 0 ? upper_tail(-t, degrees) : 1 - upper_tail(t, degrees);
 }
 
 double student_quantile(double p, double degrees) {
-  if (!(p > 0 && p < 1) || !(degrees > 0)) return kNone;
+  if (!(p > 0 && p < 1) || !(degrees > 0)) return kMissing;
   if (p == 0.5) return 0;
   const double tail = std::min(p, 1 - p);
   double low = 0, high = 1;
@@ -132,7 +132,7 @@ double student_quantile(double p, double degrees) {
 
 double signed_rank_p(std::span<const double> differences) {
   const std::vector<Ranked> all = ranked(differences);
-  if (all.empty()) return kNone;
+  if (all.empty()) return kMissing;
   std::size_t sum = 0;
   for (const Ranked& one : all) sum += one.positive ? one.twice_rank : 0;
   return all.size() <= kExactRanks ? exact_p(all, sum) : normal_p(all, sum);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "engine/core/missing.hpp"
 #include "engine/run/campaign_state.hpp"
 
 namespace vigil {
@@ -47,14 +47,13 @@ void CampaignTable::add(const TrialResult& trial) {
 }
 
 void CampaignTable::add_values(const TrialResult& trial) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto row = static_cast<std::size_t>(state_->trials++);
   for (const MetricValue& metric : trial.metrics) {
     const State::Key key{metric.lane, metric.node, metric.name, metric.variant};
     const auto [place, fresh] = state_->places.try_emplace(key, state_->series.size());
     if (fresh) state_->series.push_back({metric, {}});
     auto& values = state_->series[place->second].values;
-    values.resize(row, kNone);
+    values.resize(row, kMissing);
     values.push_back(metric.value);
   }
 }
@@ -82,7 +81,6 @@ void CampaignTable::add_extra(const TrialResult::Extra& extra) {
 }
 
 std::vector<MetricSummary> CampaignTable::summary() const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<MetricSummary> summary;
   for (const TrialSeries& series : state_->series) {
     summary.push_back(summarise(series));
@@ -96,7 +94,7 @@ std::vector<MetricSummary> CampaignTable::summary() const {
     ratio.mean = state_->bounds.at(lane).max();
     for (double* none :
          {&ratio.se, &ratio.median, &ratio.min, &ratio.max, &ratio.q05, &ratio.q25, &ratio.q75, &ratio.q95})
-      *none = kNone;  // one figure of all trials together
+      *none = kMissing;  // one figure of all trials together
     ratio.n = state_->trials;
     summary.push_back(ratio);
   }

@@ -1,14 +1,12 @@
 /// The statistics of a campaign's series.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "engine/core/missing.hpp"
 #include "engine/run/campaign_state.hpp"
 
 namespace vigil {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 bool pooled(const std::string& name) { return name.starts_with("rmse_") || name.starts_with("rms_"); }
 
@@ -20,7 +18,7 @@ double mean_of(const std::vector<double>& values) {
 
 /// Standard error of the mean; NaN with fewer than two values.
 double error_of(const std::vector<double>& values, double mean) {
-  if (values.size() < 2) return kNone;
+  if (values.size() < 2) return kMissing;
   double square = 0;
   for (const double value : values) square += (value - mean) * (value - mean);
   const auto n = static_cast<double>(values.size());
@@ -57,7 +55,7 @@ MetricSummary summarise(const TrialSeries& series) {
   if (values.empty()) {
     for (double* none : {&summary.mean, &summary.se, &summary.median, &summary.min, &summary.max, &summary.q05,
                          &summary.q25, &summary.q75, &summary.q95})
-      *none = kNone;
+      *none = kMissing;
     return summary;
   }
   std::vector<double> squares = values;

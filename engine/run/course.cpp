@@ -1,16 +1,12 @@
 #include "engine/run/course.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "engine/core/missing.hpp"
 #include "engine/linalg/small.hpp"
 
 namespace vigil {
-namespace {
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-}
-
 void World::draw(std::int64_t k) {
   process_noise.draw(k, process);
   for (std::size_t i = 0; i < sensors.size(); ++i) sensor_noise[i].draw(k, sensing[i]);

@@ -1,8 +1,8 @@
 #include "engine/run/fusion_side.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "engine/core/missing.hpp"
 #include "engine/methods/privacy/confidentiality.hpp"
 #include "engine/metrics/lane_score.hpp"
 #include "engine/run/lane_scope.hpp"
@@ -10,13 +10,12 @@
 namespace vigil {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLegitimate = 0, kOptimal = 1, kFirstListener = 2;
 
 /// NaN where an index would be infinite: a frame has no infinity.
 double index_of(double eavesdropper, double legitimate) {
   const double index = privacy::confidentiality_index(eavesdropper, legitimate);
-  return std::isfinite(index) ? index : kNone;
+  return std::isfinite(index) ? index : kMissing;
 }
 
 void write(const double* from, int count, int slot, std::span<double> values) {
@@ -31,7 +30,7 @@ FusionSide::FusionSide(const FusionMethod& method, std::string lane, const std::
       names_(outputs),
       nodes_(static_cast<int>(outputs.size()) - 1),
       states_(plant.states()),
-      sent_(Eigen::MatrixXd::Constant(states_, nodes_, kNone)),
+      sent_(Eigen::MatrixXd::Constant(states_, nodes_, kMissing)),
       heard_(sent_),
       hears_(static_cast<std::size_t>(nodes_), 0) {
   for (const Component& component : plant.state()) periods_.push_back(component.period);
@@ -70,7 +69,7 @@ FusionSide::FusionSide(const FusionSide& other)
 
 void FusionSide::add_curve(const std::string& name, const std::string& node, const std::string& variant,
                            std::optional<std::int64_t> last) {
-  curves_.push_back({name, node, variant, -1, -1, kNone, SquareTally(last)});
+  curves_.push_back({name, node, variant, -1, -1, kMissing, SquareTally(last)});
 }
 
 void FusionSide::declare(const Plant& plant, Catalogue& catalogue) {
@@ -117,7 +116,7 @@ void FusionSide::listen(const FusionMethod& method, const Eigen::MatrixXd& messa
   for (int i = 0; i < nodes_; ++i) {
     const auto node = static_cast<std::size_t>(i);
     hears_[node] = overheard[node] != 0 && method.protection().audible(i) ? 1 : 0;
-    if (hears_[node] == 0) heard_.col(i).setConstant(kNone);
+    if (hears_[node] == 0) heard_.col(i).setConstant(kMissing);
   }
   const Eigen::VectorXd* published = method.protection().published();
   for (Listener& one : listeners_) {
@@ -127,7 +126,7 @@ void FusionSide::listen(const FusionMethod& method, const Eigen::MatrixXd& messa
 }
 
 double FusionSide::square(const Eigen::VectorXd& truth, const double* estimate) const {
-  if (estimate == nullptr || !truth.allFinite()) return kNone;
+  if (estimate == nullptr || !truth.allFinite()) return kMissing;
   return state_error(truth, estimate, periods_).squaredNorm();
 }
 
@@ -163,7 +162,7 @@ void FusionSide::publish_nodes(std::int64_t k, const FusionMethod& method, const
     for (int c = 0; c < states_; ++c) trace += belief.covariance[c * states_ + c];
     put(*local, k, square(truth, belief.mean), trace, values);
     const double* sent = sent_.col(i).data();
-    put(local[nodes_], k, square(truth, sent), kNone, values);
+    put(local[nodes_], k, square(truth, sent), kMissing, values);
     write(sent, states_, sent_slots_[node], values);
     const double* compensated = method.compensated(i);
     put(local[2 * nodes_], k, square(truth, compensated), method.compensated_trace(i), values);

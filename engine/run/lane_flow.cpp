@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "engine/core/missing.hpp"
 
 namespace vigil {
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// The known inputs among the drives, in the order of Plant::input().
 void pick_inputs(const ContinuousPlant& plant, const Eigen::VectorXd& v, Eigen::VectorXd& u) {

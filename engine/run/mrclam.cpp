@@ -93,11 +93,11 @@ struct Reading {
   }
 };
 
-using Readings = std::map<std::int64_t, std::map<int, Reading>>;
+using Sightings = std::map<std::int64_t, std::map<int, Reading>>;
 
-Readings gather(const Rows& measurement, const std::map<int, int>& subject_of,
-                const std::map<int, std::vector<double>>& landmarks, double begin, double dt, std::int64_t last) {
-  Readings readings;
+Sightings gather(const Rows& measurement, const std::map<int, int>& subject_of,
+                 const std::map<int, std::vector<double>>& landmarks, double begin, double dt, std::int64_t last) {
+  Sightings readings;
   for (const auto& row : measurement) {
     const auto subject = subject_of.find(static_cast<int>(row[1]));
     if (subject == subject_of.end() || !landmarks.contains(subject->second)) continue;
@@ -129,7 +129,7 @@ std::string mrclam_to_csv(const MrclamFiles& files, double dt) {
   if (ticks > static_cast<double>(kMaxTicks))
     throw InputError("/dt", fmt::format("dt is {} s: more than {} ticks", dt, kMaxTicks));
   const auto last = static_cast<std::int64_t>(ticks);
-  const Readings readings = gather(measurement, subject_of, landmarks, begin, dt, last);
+  const Sightings readings = gather(measurement, subject_of, landmarks, begin, dt, last);
 
   Catalogue catalogue;
   for (const char* name : {"truth.x", "truth.y", "truth.theta", "input.v", "input.omega"})

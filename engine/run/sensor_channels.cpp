@@ -1,13 +1,10 @@
 #include "engine/run/sensor_channels.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "engine/core/missing.hpp"
 
 namespace vigil {
-namespace {
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-}
-
 SensorChannels::SensorChannels(const std::vector<std::shared_ptr<const Sensor>>& sensors,
                                std::optional<std::int64_t> last)
     : length_(last ? std::min(*last + 1, kMemory + 1) : kMemory + 1) {

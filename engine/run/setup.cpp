@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "engine/core/missing.hpp"
 #include "engine/linalg/covariance.hpp"
 #include "engine/linalg/small.hpp"
 #include "engine/run/sensor_signals.hpp"
@@ -14,7 +14,6 @@
 namespace vigil {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kRecordLimit =
     40'000;  // cells (ticks x nodes) of a lane's bound record: enough for the papers, bounded for the rest
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "engine/core/missing.hpp"
 #include "engine/linalg/covariance.hpp"
 #include "engine/linalg/small.hpp"
 #include "engine/methods/fusion_method.hpp"
@@ -15,8 +15,6 @@
 
 namespace vigil {
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::VectorXd read_vector(const Json& value, int size, const std::string& pointer) {
   if (!value.is_array() || static_cast<int>(value.size()) != size) {

@@ -1,15 +1,11 @@
 /// One tick, in the order of the design.
 #include <cmath>
-#include <limits>
 
+#include "engine/core/missing.hpp"
 #include "engine/run/sensor_signals.hpp"
 #include "engine/run/state.hpp"
 
 namespace vigil {
-namespace {
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-}
-
 void Run::State::step(Sink& sink) {
   ++k;
   if (k == 0) {

@@ -4,11 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "engine/core/describe.hpp"
+#include "engine/core/missing.hpp"
 
 namespace vigil {
 namespace {
@@ -16,7 +16,6 @@ namespace {
 constexpr std::size_t kMostColumns = 100'000;
 constexpr std::size_t kLongestName = 256;
 constexpr std::int64_t kRemembered = 16;  ///< rows of a trace that grows
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view trimmed(std::string_view cell) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };

@@ -23,7 +23,7 @@ constexpr const char* kHead =
     "the working-out of each; equations have their source's numbers.\n"
     "In costs, n counts states, N or L nodes or sensors, d neighbours of a node, p channels of a sensor.\n";
 
-struct Kind {
+struct Chapter {
   const char* heading;
   const char* word;
   const char* where;
@@ -60,27 +60,27 @@ std::string drawn(const std::string& id) {
 }
 
 template <class Make>
-std::string page(const Entry<Make>& entry, const FamilyWords& found, const Kind& kind) {
+std::string page(const Entry<Make>& entry, const FamilyWords& found, const Chapter& chapter) {
   const MethodWords& words = found.words;
   std::string text =
       fmt::format("# {} / {}\n\n{} `{}`, {}. Source: {}. [All methods](README.md)\n\n{}.\n", entry.title.en,
-                  entry.title.zh, kind.word, entry.id, found.family, entry.source, words.line);
+                  entry.title.zh, chapter.word, entry.id, found.family, entry.source, words.line);
   text += "\n## Model\n\n" + words.model + "\n" + drawn(entry.id) + "\n## Algorithm\n\n";
   for (std::size_t i = 0; i < words.steps.size(); ++i) text += fmt::format("{}. {}\n", i + 1, words.steps[i]);
-  text += fmt::format("\n## Parameters\n\n{}\n\n{}", kind.where, parameters_table(entry.params));
+  text += fmt::format("\n## Parameters\n\n{}\n\n{}", chapter.where, parameters_table(entry.params));
   return text + "## Cost\n\n" + words.cost + "\n" + resolved(words, entry.params);
 }
 
 template <class Make>
-void add(const Kind& kind, std::map<std::string, std::string>& pages) {
+void add(const Chapter& chapter, std::map<std::string, std::string>& pages) {
   std::string& index = pages["README.md"];
-  index += fmt::format("\n## {}\n\n| id | title | family | in one line |\n|---|---|---|---|\n", kind.heading);
+  index += fmt::format("\n## {}\n\n| id | title | family | in one line |\n|---|---|---|---|\n", chapter.heading);
   for (const auto& entry : Registry<Make>::all()) {
     const FamilyWords* found = find_words(entry.id);
     if (found == nullptr) throw std::logic_error("nobody has described " + entry.id + " in a words.cpp");
     index += fmt::format("| [`{0}`]({0}.md) | {1} / {2} | {3} | {4} |\n", entry.id, entry.title.en, entry.title.zh,
                          found->family, found->words.line);
-    pages[entry.id + ".md"] = page(entry, *found, kind);
+    pages[entry.id + ".md"] = page(entry, *found, chapter);
   }
 }
 

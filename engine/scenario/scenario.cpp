@@ -1,5 +1,6 @@
 #include "engine/scenario/scenario.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/core/describe.hpp"
@@ -92,6 +93,10 @@ const std::vector<std::string>& Scenario::preset_ids() {
     return found;
   }();
   return ids;
+}
+
+bool Scenario::is_preset(std::string_view id) {
+  return std::find(preset_ids().begin(), preset_ids().end(), id) != preset_ids().end();
 }
 
 Scenario Scenario::preset(std::string_view id) {

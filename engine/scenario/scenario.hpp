@@ -19,6 +19,7 @@ class Scenario {
   /// A preset by its id. Throws InputError that lists the presets.
   static Scenario preset(std::string_view id);
   static const std::vector<std::string>& preset_ids();
+  static bool is_preset(std::string_view id);
 
   const Json& document() const { return document_; }
   std::string id() const;

@@ -131,7 +131,7 @@ class LinearSensor final : public Sensor {
   std::vector<Component> channels_;
 };
 
-const Registration<PlantMake> plant({
+const Registration<PlantMake> plant_registration({
     "linear",
     {"A linear plant of one's own", "自定义线性对象"},
     "seed 003, eq. (1)",
@@ -168,7 +168,7 @@ const Registration<PlantMake> plant({
     },
 });
 
-const Registration<SensorMake> sensor({
+const Registration<SensorMake> sensor_registration({
     "linear",
     {"A linear sensor of one's own", "自定义线性传感器"},
     "seed 003, eq. (1)",

@@ -1,7 +1,6 @@
 // Runs side by side.
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/describe.hpp"
 #include "server/api/doc.hpp"
@@ -12,7 +11,6 @@
 namespace vigil {
 namespace {
 
-constexpr std::int64_t kLastTick = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr std::int64_t kMostPoints = 5000;
 constexpr std::int64_t kMostShift = 100'000;
 

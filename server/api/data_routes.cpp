@@ -1,7 +1,6 @@
 // What a run left behind: its catalogue, samples and marks.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/describe.hpp"
 #include "engine/run/frame_csv.hpp"
@@ -14,7 +13,6 @@
 namespace vigil {
 namespace {
 
-constexpr std::int64_t kLastTick = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr std::size_t kMostNumbers = 4'000'000;  // of one JSON answer; CSV has no such limit
 
 /// A run that has just begun may not have its signals in the file yet: what was handed to the log is waited for once.

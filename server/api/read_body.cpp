@@ -70,8 +70,7 @@ void rethrow_below(const InputError& error, const std::string& head) {
 }
 
 Scenario named_scenario(const Services& services, const std::string& id) {
-  const auto& presets = Scenario::preset_ids();
-  if (std::find(presets.begin(), presets.end(), id) != presets.end()) return Scenario::preset(id);
+  if (Scenario::is_preset(id)) return Scenario::preset(id);
   if (const auto row = services.reader.scenario(id)) return Scenario::from_json(row->document);
   throw HttpError(404, "There is no scenario " + in_quotes(id) + "; GET /api/v1/scenarios lists them.");
 }

@@ -1,5 +1,4 @@
 // The body of POST /runs.
-#include <algorithm>
 #include <random>
 
 #include "engine/core/describe.hpp"
@@ -11,11 +10,10 @@ namespace {
 Scenario read_base(const Json& value, const Services& services) {
   if (value.is_string()) {
     const auto id = value.get<std::string>();
-    const auto& presets = Scenario::preset_ids();
-    if (std::find(presets.begin(), presets.end(), id) != presets.end()) return Scenario::preset(id);
+    if (Scenario::is_preset(id)) return Scenario::preset(id);
     if (const auto row = services.reader.scenario(id)) return Scenario::from_json(row->document);
     throw InputError("/scenario", "there is no scenario " + in_quotes(id) + "; expected one of GET /api/v1/scenarios",
-                     listed(presets) + ", or one of your own");
+                     listed(Scenario::preset_ids()) + ", or one of your own");
   }
   if (!value.is_object()) {
     throw InputError("/scenario", "scenario is " + shown(value) + "; expected an id or a document", "text or object");

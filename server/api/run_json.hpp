@@ -1,10 +1,16 @@
 /// A run as the API shows it.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+
 #include "db/records.hpp"
 #include "server/api/services.hpp"
 
 namespace vigil {
+
+/// The largest tick a query may name: sums of a few do not overflow.
+inline constexpr std::int64_t kLastTick = std::numeric_limits<std::int64_t>::max() / 4;
 
 /// An item of GET /runs: the row of the log, with what is newer in the live run, if it is live.
 Json run_item(const RunRow& row, const Services& services);

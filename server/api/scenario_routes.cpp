@@ -12,11 +12,6 @@ namespace {
 
 const Json kDocument{{"type", "object"}};
 
-bool is_preset(const std::string& id) {
-  const auto& presets = Scenario::preset_ids();
-  return std::find(presets.begin(), presets.end(), id) != presets.end();
-}
-
 Json item_json(const Json& document, bool preset) {
   Json lanes = Json::array();
   for (const auto& [lane, body] : document.at("lanes").items()) lanes.push_back(lane);
@@ -49,7 +44,7 @@ bool is_scenario_id(const std::string& id) {
 
 void store(Services& services, const HttpRequest& request, HttpResponse& response) {
   const std::string id = request.params.at("id");
-  if (is_preset(id))
+  if (Scenario::is_preset(id))
     throw HttpError(409, in_quotes(id) + " is a preset and cannot be changed; store yours under another id.");
   if (!is_scenario_id(id)) {
     throw HttpError(400, "The id is " + in_quotes(id) + "; expected 1 to 64 of a-z, 0-9, - and _.");
@@ -65,7 +60,7 @@ void store(Services& services, const HttpRequest& request, HttpResponse& respons
 
 void remove(Services& services, const HttpRequest& request, HttpResponse& response) {
   const std::string id = request.params.at("id");
-  if (is_preset(id)) throw HttpError(409, in_quotes(id) + " is a preset and cannot be deleted.");
+  if (Scenario::is_preset(id)) throw HttpError(409, in_quotes(id) + " is a preset and cannot be deleted.");
   if (!services.log.delete_scenario(id)) throw HttpError(404, "There is no scenario " + in_quotes(id) + ".");
   response.empty();
 }

@@ -95,7 +95,7 @@ void columns_of(const Services& services, const HttpRequest& request, HttpRespon
                  {"mapping", document.contains(kept) ? document.at(kept) : Json()}});
 }
 
-void list(const Services& services, HttpResponse& response) {
+void list_traces(const Services& services, HttpResponse& response) {
   Json answer{{"items", Json::array()}, {"next", nullptr}};
   for (const TraceRow& row : services.reader.traces()) answer["items"].push_back(trace_json(row));
   response.json(answer);
@@ -161,7 +161,7 @@ void add_trace_routes(Routes& routes, Services& services) {
   post.body_limit = kTraceLimit;
   routes.add(std::move(post));
   routes.add(make_route(
-      "GET", "/api/v1/traces", [&services](const auto&, auto& r) { list(services, r); }, "All traces",
+      "GET", "/api/v1/traces", [&services](const auto&, auto& r) { list_traces(services, r); }, "All traces",
       doc::Operation().answer(200, "Every trace.", doc::page_schema(trace)).what()));
   routes.add(make_route(
       "GET", "/api/v1/traces/{id}", [&services](const auto& q, auto& r) { one(services, q, r); },

@@ -37,14 +37,9 @@ bool sets_of(const Json& patch, const Json& from, const std::string& before, std
   return true;
 }
 
-bool is_preset(const std::string& id) {
-  const auto& presets = Scenario::preset_ids();
-  return std::find(presets.begin(), presets.end(), id) != presets.end();
-}
-
 /// As a patch of its preset; empty where it is no preset's, or a patch cannot say it (the order of members is meaning).
 std::optional<Json> patch_of(const Scenario& scenario) {
-  if (!is_preset(scenario.id())) return std::nullopt;
+  if (!Scenario::is_preset(scenario.id())) return std::nullopt;
   const Scenario preset = Scenario::preset(scenario.id());
   Json patch = merge_patch(preset.document(), scenario.document());
   if (preset.patched(patch).document().dump() != scenario.document().dump()) return std::nullopt;

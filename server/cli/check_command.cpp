@@ -77,7 +77,7 @@ std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string text_of(const Json& report) {
+std::string report_text(const Json& report) {
   const Json& plant = report.at("plant");
   std::string text = report.at("scenario").get<std::string>() + ": plant " + cell(plant.at("type")) + ", " +
                      cell(plant.at("kind")) + ", " + counted(plant.at("states").size(), "state") + ", " +
@@ -93,7 +93,7 @@ std::string text_of(const Json& report) {
 int carry_out(const CheckCommand& command) {
   const Json report = system_report(command.scenario.order().scenario);
   if (!command.json.empty()) write_text(command.json, report.dump(2) + "\n");
-  if (command.json != "-") std::cout << text_of(report);
+  if (command.json != "-") std::cout << report_text(report);
   return kDone;
 }
 

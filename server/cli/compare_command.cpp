@@ -42,7 +42,7 @@ ComparedRun framed(const std::string& file) {
   }
 }
 
-std::string text_of(const Json& value) {
+std::string cell_text(const Json& value) {
   if (value.is_null()) return "-";
   if (value.is_number_float()) return six_digits(value.get<double>());
   if (value.is_string()) return value.get<std::string>();
@@ -60,9 +60,9 @@ std::string metric_name(const Json& metric) {
 void print_runs(const Json& runs) {
   Rows rows{{"run", "scenario", "seed", "state", "ticks", "first attack", "offset"}};
   for (const Json& run : runs) {
-    const std::string ticks = run.at("first").is_null() ? "-" : text_of(run["first"]) + ".." + text_of(run["last"]);
-    rows.push_back({text_of(run["id"]), text_of(run["scenario"]), text_of(run["seed"]), text_of(run["state"]), ticks,
-                    text_of(run["attack"]), text_of(run["offset"])});
+    const std::string ticks = run.at("first").is_null() ? "-" : cell_text(run["first"]) + ".." + cell_text(run["last"]);
+    rows.push_back({cell_text(run["id"]), cell_text(run["scenario"]), cell_text(run["seed"]), cell_text(run["state"]),
+                    ticks, cell_text(run["attack"]), cell_text(run["offset"])});
   }
   std::cout << aligned(rows);
 }
@@ -83,7 +83,7 @@ void print_parameters(const Json& answer) {
   for (const Json& row : answer.at("parameters")) {
     rows.push_back({row.at("path").get<std::string>()});
     for (const Json& value : row.at("values")) {
-      std::string text = text_of(value);
+      std::string text = cell_text(value);
       if (text.size() > 40) text = text.substr(0, 37) + "...";
       rows.back().push_back(text);
     }
@@ -96,7 +96,7 @@ void print_metrics(const Json& answer) {
   for (const Json& row : answer.at("metrics")) {
     if (!row.at("node").is_null()) continue;
     rows.push_back({metric_name(row)});
-    for (const Json& value : row.at("values")) rows.back().push_back(text_of(value));
+    for (const Json& value : row.at("values")) rows.back().push_back(cell_text(value));
   }
   if (rows.size() > 1) std::cout << "\n" << aligned(rows);
 }
@@ -114,8 +114,8 @@ void print_verdicts(const Json& answer) {
     const bool judged = verdict.at("ticks").get<std::int64_t>() > 0;
     const std::string word = !judged ? "no common tick" : verdict.at("holds").get<bool>() ? "within" : "outside";
     const std::string share = judged ? six_digits(100 * verdict.at("inside").get<double>()) + " %" : "-";
-    rows.push_back({text_of(verdict["signal"]), text_of(verdict["run"]), word, share, text_of(verdict["first"]),
-                    number_of(verdict["worst"]), text_of(verdict["worst_at"]), mean, interval});
+    rows.push_back({cell_text(verdict["signal"]), cell_text(verdict["run"]), word, share, cell_text(verdict["first"]),
+                    number_of(verdict["worst"]), cell_text(verdict["worst_at"]), mean, interval});
   }
   if (rows.size() > 1) std::cout << "\n" << aligned(rows);
 }
@@ -126,8 +126,8 @@ void print_pairs(const Json& answer) {
     if (!row.contains("metric") || !row["metric"].at("node").is_null()) continue;
     const std::string interval =
         row.at("ci").is_null() ? "-" : number_of(row["ci"][0]) + " to " + number_of(row["ci"][1]);
-    rows.push_back({metric_name(row["metric"]), text_of(row.at("against")), number_of(row.at("mean")),
-                    number_of(row.at("se")), interval, number_of(row.at("p")), text_of(row.at("n"))});
+    rows.push_back({metric_name(row["metric"]), cell_text(row.at("against")), number_of(row.at("mean")),
+                    number_of(row.at("se")), interval, number_of(row.at("p")), cell_text(row.at("n"))});
   }
   if (rows.size() > 1) std::cout << "\n" << aligned(rows);
 }

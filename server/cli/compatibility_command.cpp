@@ -17,7 +17,7 @@ struct CompatibilityCommand {
   std::string json;  ///< file
 };
 
-std::string text_of(const Json& table) {
+std::string table_text(const Json& table) {
   std::vector<std::string> reasons;
   const auto number = [&reasons](const std::string& reason) {
     const auto found = std::find(reasons.begin(), reasons.end(), reason);
@@ -46,7 +46,7 @@ std::string text_of(const Json& table) {
 int carry_out(const CompatibilityCommand& command) {
   const Json table = compatibility(command.scenario.order().scenario);
   if (!command.json.empty()) write_text(command.json, table.dump(2) + "\n");
-  if (command.json != "-") std::cout << text_of(table);
+  if (command.json != "-") std::cout << table_text(table);
   return kDone;
 }
 

@@ -38,14 +38,13 @@ std::pair<std::string, std::string> split(const std::string& text, const char* e
 
 RunOrder load(const std::string& name) {
   RunOrder order;
-  const auto& presets = Scenario::preset_ids();
-  if (std::find(presets.begin(), presets.end(), name) != presets.end()) {
+  if (Scenario::is_preset(name)) {
     order.scenario = Scenario::preset(name);
     return order;
   }
   std::error_code error;
   if (!std::filesystem::exists(name, error)) {
-    throw UserError("SCENARIO is " + in_quotes(name) + "; expected a preset (" + listed(presets) +
+    throw UserError("SCENARIO is " + in_quotes(name) + "; expected a preset (" + listed(Scenario::preset_ids()) +
                     "), a JSON file or a bundle");
   }
   const Json json = read_json(name);

@@ -53,7 +53,7 @@ std::optional<double> limit(double value, const char* flag) {
   return value;
 }
 
-ServerOptions settle(const ServeCommand& command) {
+ServerOptions settled(const ServeCommand& command) {
   ServerOptions options = command.server;
   if (!command.token_file.empty()) {
     try {
@@ -94,7 +94,7 @@ int serve(const ServeCommand& command) {
   std::signal(SIGPIPE, SIG_IGN);
   spdlog::set_default_logger(spdlog::stderr_logger_mt("vigil"));
 
-  const ServerOptions options = settle(command);
+  const ServerOptions options = settled(command);
   Server server(options);
   try {
     server.start();

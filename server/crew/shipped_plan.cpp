@@ -11,7 +11,7 @@ namespace vigil {
 namespace {
 
 constexpr std::uint64_t kFormat = 0x3130'4e41'4c50'4756;  // "VGPLAN01"
-constexpr std::size_t kMostBytes = std::size_t{1} << 33;
+constexpr std::size_t kMostPlanBytes = std::size_t{1} << 33;
 constexpr std::size_t kParsed = 16;  // points that are kept ready
 
 }  // namespace
@@ -29,7 +29,7 @@ std::string ship(const CampaignPlan& plan) {
 }
 
 ShippedPlan::ShippedPlan(std::string_view packed) {
-  const std::string bytes = unpack(packed, kMostBytes);
+  const std::string bytes = unpack(packed, kMostPlanBytes);
   ByteReader in(bytes);
   if (in.word() != kFormat) throw std::runtime_error("These bytes are no plan of a campaign.");
   runs_ = in.integer();

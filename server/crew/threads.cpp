@@ -12,8 +12,8 @@
 namespace vigil {
 namespace {
 
-/// Hands out trials and takes their results back in order. Workers run at most a few trials ahead of the merge, so that
-/// memory does not grow with the campaign.
+/// Hands out trials and takes their results back in order. Its threads run at most a few trials ahead of the merge, so
+/// that memory does not grow with the campaign.
 class TrialQueue {
  public:
   TrialQueue(std::int64_t first, std::int64_t trials, int threads)
@@ -67,17 +67,17 @@ class TrialQueue {
 };
 
 /// Joins its threads whatever happens.
-class Workers {
+class Team {
  public:
-  Workers(const CampaignPlan& plan, TrialQueue& queue) : queue_(queue) {
+  Team(const CampaignPlan& plan, TrialQueue& queue) : queue_(queue) {
     for (int i = 0; i < plan.threads; ++i) threads_.emplace_back([&plan, &queue] { work(plan, queue); });
   }
-  ~Workers() {
+  ~Team() {
     queue_.close();
     for (std::thread& thread : threads_) thread.join();
   }
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
 
  private:
   static void work(const CampaignPlan& plan, TrialQueue& queue) {
@@ -105,7 +105,7 @@ class Workers {
 
 void ThreadCrew::run(const CampaignPlan& plan, const std::atomic<bool>& stop, const Take& take) {
   TrialQueue queue(plan.first, plan.trials(), plan.threads);
-  const Workers workers(plan, queue);
+  const Team team(plan, queue);
   for (std::int64_t index = plan.first; index < plan.trials(); ++index) {
     const auto trial = queue.take(stop);
     if (!trial) return;

@@ -1,15 +1,11 @@
 #include "server/front/head.hpp"
 
-#include <strings.h>
-
 #include <algorithm>
+
+#include "server/front/header_text.hpp"
 
 namespace vigil {
 namespace {
-
-bool same_name(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && strncasecmp(a.data(), b.data(), a.size()) == 0;
-}
 
 bool starts_with_name(std::string_view text, std::string_view prefix) {
   return text.size() >= prefix.size() && same_name(text.substr(0, prefix.size()), prefix);
@@ -25,12 +21,6 @@ bool is_token(std::string_view text) { return !text.empty() && std::all_of(text.
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte < 0x20 || byte == 0x7f;
-}
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
 }
 
 bool has_option(std::string_view list, std::string_view option) {

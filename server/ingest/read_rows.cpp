@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/describe.hpp"
 #include "engine/core/input_error.hpp"
+#include "engine/core/missing.hpp"
 #include "server/front/message.hpp"
 #include "server/ingest/csv_cells.hpp"
 
@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMostRows = 20'000;
 constexpr std::int64_t kLastTick = 1'000'000'000'000;
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 void check_count(std::size_t rows) {
   if (rows > kMostRows)

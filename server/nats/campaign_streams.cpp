@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::int64_t kAnswer = 2000;  // ms to wait for one
+constexpr std::int64_t kStreamAnswer = 2000;  // ms to wait for one
 constexpr int kBatch = 64;
 constexpr std::int64_t kDuplicates = 120'000'000'000;  // ns in which the same message counts once
 
@@ -26,7 +26,7 @@ std::int64_t nanoseconds(std::chrono::nanoseconds time) { return time.count(); }
 jsOptions patient() {
   jsOptions options;
   jsOptions_Init(&options);
-  options.Wait = kAnswer;
+  options.Wait = kStreamAnswer;
   return options;
 }
 
@@ -128,7 +128,7 @@ bool CampaignStreams::publish(const std::vector<TrialJob>& jobs) {
   }
   jsPubOptions wait;
   jsPubOptions_Init(&wait);
-  wait.MaxWait = kAnswer;
+  wait.MaxWait = kStreamAnswer;
   return js_PublishAsyncComplete(connection_.streams(), &wait) == NATS_OK;
 }
 

@@ -30,7 +30,7 @@ std::string member(const Json& json, const char* name, const std::string& file) 
   return json.at(name).get<std::string>();
 }
 
-void check(natsStatus status, const std::string& file) {
+void demand(natsStatus status, const std::string& file) {
   if (status != NATS_OK) refuse(file, std::string("cannot be used: ") + natsStatus_GetText(status));
 }
 
@@ -42,13 +42,13 @@ void add_members(natsOptions* options, const Json& json, const std::string& file
   }
   const std::string user = member(json, "user", file), token = member(json, "token", file);
   if (!user.empty())
-    check(natsOptions_SetUserInfo(options, user.c_str(), member(json, "password", file).c_str()), file);
-  if (!token.empty()) check(natsOptions_SetToken(options, token.c_str()), file);
+    demand(natsOptions_SetUserInfo(options, user.c_str(), member(json, "password", file).c_str()), file);
+  if (!token.empty()) demand(natsOptions_SetToken(options, token.c_str()), file);
   const std::string ca = member(json, "ca", file), certificate = member(json, "certificate", file);
-  if (!ca.empty()) check(natsOptions_LoadCATrustedCertificates(options, ca.c_str()), file);
+  if (!ca.empty()) demand(natsOptions_LoadCATrustedCertificates(options, ca.c_str()), file);
   if (!certificate.empty()) {
     const std::string key = member(json, "key", file);
-    check(natsOptions_LoadCertificatesChain(options, certificate.c_str(), key.c_str()), file);
+    demand(natsOptions_LoadCertificatesChain(options, certificate.c_str(), key.c_str()), file);
   }
 }
 
@@ -67,7 +67,7 @@ void add_credentials(natsOptions* options, const std::vector<std::string>& files
     read(files.back());
   }
   const char* seed = files.size() == 2 ? files.back().c_str() : nullptr;
-  check(natsOptions_SetUserCredentialsFromFiles(options, files.front().c_str(), seed), files.front());
+  demand(natsOptions_SetUserCredentialsFromFiles(options, files.front().c_str(), seed), files.front());
 }
 
 }  // namespace vigil

@@ -9,7 +9,7 @@ namespace vigil::papers {
 namespace {
 
 constexpr double kWidth = 460, kHeight = 270, kLeft = 58, kRight = 12, kTop = 24, kBottom = 42;
-constexpr std::size_t kColours = 9, kMostNames = 9;
+constexpr std::size_t kHues = 9, kMostNames = 9;
 
 std::string px(double value) {
   char text[32];
@@ -121,7 +121,7 @@ std::string svg_of(const Panel& panel) {
   std::size_t next = 0;
   for (const Series& series : panel.series) {
     const bool edge = series.style == "edge";
-    const std::string colour = edge ? "edge" : "c" + std::to_string(next++ % kColours);
+    const std::string colour = edge ? "edge" : "c" + std::to_string(next++ % kHues);
     body += drawn(series, x, y, colour);
     if (!edge) names.emplace_back(colour, series.name);
   }

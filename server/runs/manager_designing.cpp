@@ -10,7 +10,7 @@
 namespace vigil {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(10);
+constexpr auto kSolverEnds = std::chrono::seconds(10);
 
 WallTime wall_now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
@@ -139,7 +139,7 @@ bool RunManager::stop_designing(RunId id, const std::string& state) {
     if (place == waiting_.end()) return false;
     if (place->second->going_on) {
       if (!place->second->stop) place->second->stop = state;
-      changed_.wait_for(lock, kPatience, [&] { return !waiting_.contains(id); });
+      changed_.wait_for(lock, kSolverEnds, [&] { return !waiting_.contains(id); });
       return true;
     }
     waiting = place->second;

@@ -21,7 +21,7 @@ constexpr double kBound = 1e10;  // of |y|: at the library's own 1e7 it stops fa
 // optimum of the pair's `fast` design; given densely it is eight times slower.
 constexpr double kPotential = 2;
 
-constexpr double kLongest = 1e6;  // s
+constexpr double kNoEnd = 1e6;  // s
 
 struct Destroy {
   void operator()(DSDP solver) const { DSDPDestroy(solver); }
@@ -121,7 +121,7 @@ Handle load(const SdpProblem& problem, std::vector<Group>& groups) {
 
 SdpSolution DsdpSolver::solve(const SdpProblem& problem, double limit) {
   const auto begin = Clock::now();
-  const std::chrono::duration<double> allowed(limit > 0 ? std::min(limit, kLongest) : 0);
+  const std::chrono::duration<double> allowed(limit > 0 ? std::min(limit, kNoEnd) : 0);
   Limit clock{.end = begin + std::chrono::duration_cast<Clock::duration>(allowed)};
   SdpSolution solution;
   solution.detail = "DSDP does not take the problem";

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/linalg/small.hpp"
+#include "engine/methods/privacy/local_filters.hpp"
 #include "engine/methods/privacy/start.hpp"
 
 namespace vigil::privacy {
@@ -11,8 +12,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kSettled = 1e-12;  // relative
 
 }  // namespace
 
@@ -90,8 +89,7 @@ void Centre::weigh(const PublicTick& tick, const VectorXd& h, const Protection& 
   const MatrixXd P_before = user_.P, X_before = user_.X;
   if (tick.k > 0 && plant_->linear()) Af_ = tick.steps.front().A;
   take_in(tick.P, tick.k == 0 ? prior_ : foresee(tick.steps, tick.gains, Q_, Af_, user_), h, noise, user_);
-  steady_ = same && (user_.P - P_before).norm() <= kSettled * user_.P.norm() &&
-            (user_.X - X_before).norm() <= kSettled * user_.X.norm();
+  steady_ = same && settled(user_.P, P_before) && settled(user_.X, X_before);
 }
 
 const double* Centre::compensated(int sensor) const { return replaced_ ? compensated_.col(sensor).data() : nullptr; }

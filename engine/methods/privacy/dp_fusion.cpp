@@ -19,7 +19,6 @@ using Eigen::MatrixXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWorstCondition = 1e10;
-constexpr int kMemory = 400;  // steps of a filter's memory that are counted
 
 void check(const FusionModel& model, const DpSettings& settings) {
   if (settings.kappa < 1)

@@ -10,7 +10,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMemory = 400;          // ticks of a filter's memory that are counted
 constexpr double kForgotten = 1e-10;  // of the largest shift; what is smaller is no longer waited for
 
 /// How a difference at one time, or at all times, moves the stacked estimates.

@@ -6,6 +6,7 @@
 
 #include "engine/core/input_error.hpp"
 #include "engine/linalg/riccati.hpp"
+#include "engine/methods/privacy/local_filters.hpp"
 #include "engine/methods/privacy/start.hpp"
 
 namespace vigil::privacy {
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kSettled = 1e-12;  // relative
 
 StationaryFilters solved(const FusionModel& model, const std::vector<std::string>& ids) {
   for (std::size_t i = 0; i < model.sensors.size(); ++i) {
@@ -105,7 +104,7 @@ bool LocalBank::measure(const Readings& readings, PublicTick& tick, FaultReport&
     if (!tick.P.allFinite()) return finish(tick, report);
     tick.nominal = fuse(tick.P, static_cast<int>(means_.rows()));
     keep_covariances(tick.P);
-    frozen_ = kind_ != LocalKind::extended && complete() && (tick.P - before_).norm() <= kSettled * tick.P.norm();
+    frozen_ = kind_ != LocalKind::extended && complete() && settled(tick.P, before_);
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     means_.col(static_cast<Eigen::Index>(i)).noalias() += tick.gains[i].K * nodes_[i].r;

@@ -11,7 +11,7 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr int kDoublings = 60;
-constexpr double kSettled = 1e-15;  // relative change that ends the doubling
+constexpr double kDoubled = 1e-15;  // relative change that ends the doubling
 
 MatrixXd own_noise(const LocalGains& gains, const MatrixXd& R) { return gains.K * R * gains.K.transpose(); }
 
@@ -94,7 +94,7 @@ std::optional<MatrixXd> solve_stein(MatrixXd M, MatrixXd N, MatrixXd W) {
     const MatrixXd growth = M * W * N.transpose();
     W += growth;
     if (!W.allFinite()) return std::nullopt;
-    if (growth.norm() <= kSettled * W.norm()) return W;
+    if (growth.norm() <= kDoubled * W.norm()) return W;
     M = (M * M).eval();
     N = (N * N).eval();
   }

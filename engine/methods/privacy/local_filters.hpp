@@ -12,6 +12,14 @@
 
 namespace vigil::privacy {
 
+inline constexpr int kMemory = 400;  ///< ticks of a stationary filter's memory that are counted
+
+/// Whether a covariance moves no more: to 1e-12, relative.
+template <class Matrix>
+bool settled(const Matrix& now, const Matrix& before) {
+  return (now - before).norm() <= 1e-12 * now.norm();
+}
+
 /// What one sensor's filter linearises its step to; for a linear plant A and C are the model's.
 struct LocalStep {
   Eigen::MatrixXd A, C, R;

@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/core/missing.hpp"
 #include "engine/methods/privacy/eavesdroppers.hpp"
 #include "engine/methods/privacy/mechanism_params.hpp"
 #include "engine/methods/privacy/protection.hpp"
@@ -15,7 +16,6 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr int kDepth = 5;  // messages that the eavesdropper of a leaking code puts together
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 StationaryFilters filters_of(const FusionModel& model) {
   auto filters = stationary_filters(model);
@@ -121,7 +121,7 @@ class SecrecyCode final : public Protection {
  private:
   double code_a_trace(const PublicTick& tick) const {
     if (code_a_ && steady_) return code_a_->trace(tick.nominal.W);
-    return tick.settled ? lasting_trace_ : kNone;
+    return tick.settled ? lasting_trace_ : kMissing;
   }
   /// For what this mechanism let through; known as the eavesdropper's figure where all of that was overheard.
   double recent_trace() const {
@@ -138,9 +138,9 @@ class SecrecyCode final : public Protection {
   std::vector<MatrixXd> codes_;
   bool steady_;                       ///< every tick so far was in the filters' stationary law
   std::vector<CodeMemory> memories_;  ///< of sensors and user alike
-  double prior_trace_ = kNone;
+  double prior_trace_ = kMissing;
   std::optional<CodeAError> code_a_;
-  double lasting_trace_ = kNone;  ///< of code A, in the long run
+  double lasting_trace_ = kMissing;  ///< of code A, in the long run
   std::optional<RecentMessages> recent_;
   std::vector<char> heard_;  ///< as RecentMessages has it
   mutable std::map<std::vector<char>, double> traces_;

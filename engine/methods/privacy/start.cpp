@@ -2,14 +2,13 @@
 
 #include "engine/linalg/riccati.hpp"
 #include "engine/linalg/small.hpp"
+#include "engine/methods/privacy/local_filters.hpp"
 
 namespace vigil::privacy {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kSettled = 1e-12;  // relative
 
 /// The plant's own part of a FusionModel. It must be linear.
 FusionModel plant_model(const Knowledge& knowledge) {
@@ -78,7 +77,7 @@ void StateMoment::step(const VectorXd& input) {
   covariance_ = (A_ * covariance_ * A_.transpose() + Q_).eval();
   symmetrise(covariance_);
   second_ = covariance_ + mean_ * mean_.transpose();
-  settled_ = plant_->inputs() == 0 && (second_ - before).norm() <= kSettled * second_.norm();
+  settled_ = plant_->inputs() == 0 && privacy::settled(second_, before);
 }
 
 }  // namespace vigil::privacy

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/core/input_error.hpp"
+#include "engine/linalg/covariance.hpp"
 #include "engine/methods/privacy/gaussian_mechanism.hpp"
 #include "engine/methods/privacy/null_space.hpp"
 
@@ -35,10 +36,6 @@ void check(const FusionModel& model, const TwoStepSettings& settings) {
     throw InputError("/q_xi", fmt::format("q_xi must be {} numbers, none negative", count), "0 or more");
   if (!settings.Rg.empty() && settings.Rg.size() != count)
     throw InputError("/Rg", fmt::format("Rg must be {} matrices", count));
-}
-
-double least_eigenvalue(const MatrixXd& S) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 /// The first noise: its variances, and what it makes of the local estimates.

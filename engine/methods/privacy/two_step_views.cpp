@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "engine/linalg/covariance.hpp"
 #include "engine/methods/privacy/gaussian_mechanism.hpp"
 #include "engine/methods/privacy/two_step.hpp"
 
@@ -13,8 +14,6 @@ namespace vigil::privacy {
 namespace {
 
 using Eigen::MatrixXd;
-
-constexpr int kMemory = 400;  // lags looked at for the worst one
 
 /// The shift of s(t0 + k), k = 0 .. last: the filter's memory of the difference, summed over the window.
 std::vector<MatrixXd> shifts(const MatrixXd& Psi, const MatrixXd& V, int window, int last) {
@@ -28,10 +27,6 @@ std::vector<MatrixXd> shifts(const MatrixXd& Psi, const MatrixXd& V, int window,
     lag = (Psi * lag).eval();
   }
   return sums;
-}
-
-double least_eigenvalue(const MatrixXd& S) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 /// The joint covariance of the noises of so many messages in a row: they share terms of their windows.

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
+#include "engine/core/missing.hpp"
 #include "engine/methods/sparse/identifiability.hpp"
 
 namespace vigil::sparse {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 WindowShape read_shape(const Params& params, const Knowledge& knowledge) {
   if (!knowledge.plant->linear() || knowledge.plant->inputs() > 0)
@@ -62,7 +60,8 @@ SparseFilter::SparseFilter(const Params& params, const Knowledge& knowledge, Mak
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const auto& sensor = knowledge.sensors[i];
     const Gaussian start{knowledge.estimates.col(static_cast<Eigen::Index>(i)), knowledge.P0};
-    nodes_.push_back({sensor, Window(sensor, shape_.window, where, as_printed_), start, {}, {}, kNone, kNone, false});
+    nodes_.push_back(
+        {sensor, Window(sensor, shape_.window, where, as_printed_), start, {}, {}, kMissing, kMissing, false});
     own_.push_back(start);
   }
 }
@@ -125,7 +124,7 @@ void SparseFilter::measure_node(std::size_t i, const Eigen::VectorXd& reading, F
   Node& node = nodes_[i];
   node.searched = false;
   node.innovation = {};
-  node.statistic = node.threshold = kNone;
+  node.statistic = node.threshold = kMissing;
   ready_[i] = 0;
   E_.col(static_cast<Eigen::Index>(i)).setZero();
   if (!reading.allFinite()) {  // predict only; the window must fill again

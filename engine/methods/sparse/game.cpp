@@ -4,17 +4,15 @@
 #include <cmath>
 #include <limits>
 
-namespace vigil::sparse {
-namespace {
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-}
+#include "engine/core/missing.hpp"
 
+namespace vigil::sparse {
 PotentialGame::PotentialGame(const Params& params, const Draws& draws, const Graph& graph)
     : draws_(draws),
       graph_(graph),
       largest_(static_cast<std::size_t>(graph.nodes())),
       differing_(Eigen::MatrixXi::Zero(graph.nodes(), graph.nodes())),
-      utility_(Eigen::MatrixXd::Constant(graph.nodes(), graph.nodes(), kNone)),
+      utility_(Eigen::MatrixXd::Constant(graph.nodes(), graph.nodes(), kMissing)),
       probability_(utility_),
       choices_(static_cast<std::size_t>(graph.nodes()), -1) {
   retune(params);
@@ -93,8 +91,8 @@ int PotentialGame::draw(int i, double u) const {
 
 void PotentialGame::play(std::int64_t k, const Eigen::MatrixXd& E, const std::vector<char>& ready,
                          const std::vector<char>& heard) {
-  utility_.setConstant(kNone);
-  probability_.setConstant(kNone);
+  utility_.setConstant(kMissing);
+  probability_.setConstant(kMissing);
   compare(E);
   for (int i = 0; i < graph_.nodes(); ++i) {
     choices_[static_cast<std::size_t>(i)] = -1;

@@ -5,7 +5,7 @@ namespace vigil::presets {
 namespace {
 
 /// One row of the table in section 3 of the specification.
-struct Kind {
+struct Noise {
   std::string id;
   Json title;
   double random = 0;   ///< P = R = random I
@@ -15,13 +15,13 @@ struct Kind {
 };
 
 /// A profile of section 7: what it changes against the method as written.
-Json profile(const Kind& kind, const char* path, const Json& changes) {
-  Json params = {{"mu", kind.mu}, {"tau", kind.tau}, {"eta", 2}, {"iota", kind.iota}};
+Json profile(const Noise& noise, const char* path, const Json& changes) {
+  Json params = {{"mu", noise.mu}, {"tau", noise.tau}, {"eta", 2}, {"iota", noise.iota}};
   params.update(changes);
   return {{"method", "mixed_filter"}, {"path", path}, {"params", std::move(params)}};
 }
 
-Json lanes(const Kind& kind) {
+Json lanes(const Noise& noise) {
   const Json marked = {{"watermark", "sensor"}, {"amplitude", 2}};
   const auto with = [](Json base, const Json& more) {
     base.update(more);
@@ -30,36 +30,37 @@ Json lanes(const Kind& kind) {
   const Json zeta1 = {{"zeta_max", 1}};
   const Json frozen = {{"threshold", "frozen"}};
   Json result = Json::object();
-  result["as_written"] = profile(kind, "loop", Json::object());
-  result["innov"] = profile(kind, "loop", {{"residual", "innovation"}});
-  result["zeta1"] = profile(kind, "loop", zeta1);
-  result["zeta1_freeze"] = profile(kind, "loop", with(zeta1, frozen));
-  result["eq29"] = profile(kind, "monitor", Json::object());
-  result["eq29_freeze"] = profile(kind, "monitor", frozen);
-  result["zeta1_wm"] = profile(kind, "loop", with(zeta1, marked));
-  result["zeta1_wm_freeze"] = profile(kind, "loop", with(with(zeta1, marked), frozen));
+  result["as_written"] = profile(noise, "loop", Json::object());
+  result["innov"] = profile(noise, "loop", {{"residual", "innovation"}});
+  result["zeta1"] = profile(noise, "loop", zeta1);
+  result["zeta1_freeze"] = profile(noise, "loop", with(zeta1, frozen));
+  result["eq29"] = profile(noise, "monitor", Json::object());
+  result["eq29_freeze"] = profile(noise, "monitor", frozen);
+  result["zeta1_wm"] = profile(noise, "loop", with(zeta1, marked));
+  result["zeta1_wm_freeze"] = profile(noise, "loop", with(with(zeta1, marked), frozen));
   const Json patient = {{"tau", 40}, {"eta", 3}};
-  result["repaired"] = profile(kind, "loop", with(with(with(zeta1, marked), frozen), patient));
-  result["repaired_ctrl"] = profile(kind, "loop",
+  result["repaired"] = profile(noise, "loop", with(with(with(zeta1, marked), frozen), patient));
+  result["repaired_ctrl"] = profile(noise, "loop",
                                     with(with(with(zeta1, frozen), patient),
                                          {{"residual", "innovation"}, {"watermark", "control"}, {"amplitude", 4}}));
-  result["fixed_norm"] = profile(kind, "monitor", with(zeta1, {{"threshold", "fixed_norm"}}));
-  result["fixed_square"] = profile(kind, "monitor", with(zeta1, {{"threshold", "fixed_square"}}));
+  result["fixed_norm"] = profile(noise, "monitor", with(zeta1, {{"threshold", "fixed_norm"}}));
+  result["fixed_square"] = profile(noise, "monitor", with(zeta1, {{"threshold", "fixed_square"}}));
   result["ufir"] = {{"method", "ufir_filter"}};
-  if (kind.bounded == 0) result["gmeekf"] = {{"method", "gmeekf"}};
-  if (kind.random == 0) result["zonotope"] = {{"method", "zonotope_watermark"}};
+  if (noise.bounded == 0) result["gmeekf"] = {{"method", "gmeekf"}};
+  if (noise.random == 0) result["zonotope"] = {{"method", "zonotope_watermark"}};
   return result;
 }
 
-Json document(const Kind& kind) {
-  const Json sensor = {
-      {"type", "linear"},
-      {"params",
-       {{"C", {{1.0, 0.2}, {-0.3, 0.789}}}, {"R", {kind.random, kind.random}}, {"Mv", {kind.bounded, kind.bounded}}}}};
+Json document(const Noise& noise) {
+  const Json sensor = {{"type", "linear"},
+                       {"params",
+                        {{"C", {{1.0, 0.2}, {-0.3, 0.789}}},
+                         {"R", {noise.random, noise.random}},
+                         {"Mv", {noise.bounded, noise.bounded}}}}};
   return {
       {"vigil", 1},
-      {"id", kind.id},
-      {"title", kind.title},
+      {"id", noise.id},
+      {"title", noise.title},
       {"source", "seed 003"},
       {"family", "replay"},
       {"time", {{"dt", 0.15}, {"steps", 300}}},
@@ -70,14 +71,14 @@ Json document(const Kind& kind) {
       {"nodes", {{"1", {{"sensor", sensor}}}}},
       {"network", {{"graph", "none"}}},
       {"noise",
-       {{"Q", {kind.random, kind.random}},
+       {{"Q", {noise.random, noise.random}},
         {"P0", 0},
-        {"Mw", {kind.bounded, kind.bounded}},
+        {"Mw", {noise.bounded, noise.bounded}},
         {"law", "gmix"},
         {"bounded", "uniform"}}},
       {"initial", {{"truth", {1, 1}}, {"estimates", "truth"}}},
       {"adversary", {{"replay", {{"type", "replay"}, {"on", Json::array({"sensor:1"})}, {"params", {{"case", 1}}}}}}},
-      {"lanes", lanes(kind)},
+      {"lanes", lanes(noise)},
       {"metrics", {{"detection", {{"from", 50}}}, {"state", {{"from", 20}}}}},
       {"view", {{"lane", "repaired"}, {"detector", true}}}};
 }

@@ -125,7 +125,7 @@ class SubsystemSensor final : public Sensor {
   std::vector<Component> channels_;
 };
 
-const Registration<SensorMake> sensor({
+const Registration<SensorMake> subsystem_sensor({
     "subsystem",
     {"The outputs of a subsystem", "子系统的输出"},
     "seed 002, eq. (1)",
