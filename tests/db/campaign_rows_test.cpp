@@ -3,7 +3,7 @@
 
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::campaign_rows_test {
 namespace {
 
 class CampaignRows : public test::ClockedLog {};
@@ -122,4 +122,4 @@ TEST_F(CampaignRows, AKeyMakesItOnce) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::campaign_rows_test

@@ -6,7 +6,7 @@
 
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::chunk_test {
 namespace {
 
 std::vector<double> round_trip(const std::vector<double>& values) {
@@ -90,4 +90,4 @@ TEST(Chunk, TextsComeBackAndDamageIsRefused) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::chunk_test

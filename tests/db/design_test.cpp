@@ -1,7 +1,7 @@
 /// Gains in the log: by the problem they answer, and with the run that was made with them.
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::design_test {
 namespace {
 
 using Designs = test::ClockedLog;
@@ -58,4 +58,4 @@ TEST_F(Designs, BelongToTheirRun) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::design_test

@@ -6,7 +6,7 @@
 
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::file_test {
 namespace {
 
 using test::Folder;
@@ -289,4 +289,4 @@ TEST(File, PruneAndVacuumGiveSpaceBack) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::file_test

@@ -7,7 +7,7 @@
 
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::kill_test {
 namespace {
 
 using test::Folder;
@@ -98,4 +98,4 @@ TEST(Kill, NothingAcknowledgedIsLostAndTheFileIsSound) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::kill_test

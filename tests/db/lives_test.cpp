@@ -1,7 +1,7 @@
 /// How long samples and runs live: the run's own keep, and the file's limits by age and size.
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::lives_test {
 namespace {
 
 using test::kDay;
@@ -91,4 +91,4 @@ TEST_F(Lives, RetentionBySizeTakesOldestFirstAndTaggedLast) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::lives_test

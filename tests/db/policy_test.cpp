@@ -9,7 +9,7 @@
 
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::policy_test {
 namespace {
 
 using test::Folder;
@@ -243,4 +243,4 @@ TEST(Policy, AFullDiskDegradesAndHeals) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::policy_test

@@ -6,7 +6,7 @@
 
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::query_test {
 namespace {
 
 constexpr WallTime kHour = 3600LL * 1'000'000'000;
@@ -282,4 +282,4 @@ TEST_F(Queries, PagesInEveryOrderGiveEachRunOnce) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::query_test

@@ -1,7 +1,7 @@
 /// Runs, commands, marks, scenarios, traces: in and out again; idempotency keys.
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::rows_test {
 namespace {
 
 using test::kDay;
@@ -205,4 +205,4 @@ TEST_F(Rows, ADeletedRunIsGoneAtOnceAndItsSamplesSoon) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::rows_test

@@ -3,7 +3,7 @@
 
 #include "tests/db/helpers.hpp"
 
-namespace vigil {
+namespace vigil::samples_test {
 namespace {
 
 using test::expect_same;
@@ -195,4 +195,4 @@ TEST(Samples, ManyReadersWhileOneWrites) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::samples_test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/linalg/covariance.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 
 namespace vigil::care_test {

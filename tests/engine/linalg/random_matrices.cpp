@@ -21,8 +21,4 @@ Eigen::MatrixXd RandomMatrices::semidefinite(Eigen::Index n, Eigen::Index rank) 
 
 Eigen::MatrixXd RandomMatrices::definite(Eigen::Index n) { return semidefinite(n, n); }
 
-double least_eigenvalue(const Eigen::MatrixXd& M) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues()[0];
-}
-
 }  // namespace vigil

@@ -32,6 +32,4 @@ class RandomMatrices {
   std::uint32_t next_ = 0;
 };
 
-double least_eigenvalue(const Eigen::MatrixXd& M);
-
 }  // namespace vigil

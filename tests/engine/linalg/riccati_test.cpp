@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <limits>
 
+#include "engine/linalg/covariance.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 
 namespace vigil::riccati_test {

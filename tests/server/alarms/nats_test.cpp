@@ -4,7 +4,7 @@
 
 #include "tests/server/nats/processes.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::nats_test {
 namespace {
 
 /// Hears a subject over a bare socket.
@@ -65,4 +65,4 @@ TEST_F(NatsAlarmsTest, AlarmsAndStatesAreSubjects) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::nats_test

@@ -6,7 +6,7 @@
 #include "server/alarms/announcer.hpp"
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil {
+namespace vigil::outbox_test {
 namespace {
 
 using api_test::eventually;
@@ -150,4 +150,4 @@ TEST_F(AnnouncerTest, TheEndSendsWhatWaitsAndWaitsForNobody) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::outbox_test

@@ -4,7 +4,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::bundle_test {
 namespace {
 
 class BundleTest : public ApiTest {
@@ -209,4 +209,4 @@ TEST_F(BundleTest, BadBundlesAreNamed) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::bundle_test

@@ -6,7 +6,7 @@
 
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::campaign_disk_test {
 namespace {
 
 #define REQUIRE_CHILD(condition) \
@@ -121,4 +121,4 @@ TEST(CampaignDisk, AFullOnePausesACampaignThatGoesOnToTheSameResults) { in_a_chi
 TEST(CampaignDisk, WhatTheLogCannotBeToldItLearnsLater) { in_a_child(no_byte_more); }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::campaign_disk_test

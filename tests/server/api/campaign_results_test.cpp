@@ -2,7 +2,7 @@
 #include "server/campaigns/results.hpp"
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::campaign_results_test {
 namespace {
 
 class CampaignResultRoutes : public ApiTest {
@@ -136,4 +136,4 @@ TEST_F(CampaignResultRoutes, WhatATrialLacksIsNull) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::campaign_results_test

@@ -3,7 +3,7 @@
 
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::campaigns_test {
 namespace {
 
 class Campaigns : public ApiTest {
@@ -201,4 +201,4 @@ TEST_F(Campaigns, BadOnesAreRefusedWhereTheyAreBad) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::campaigns_test

@@ -2,7 +2,7 @@
 #include "engine/run/system_report.hpp"
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::check_test {
 namespace {
 
 class CheckTest : public ApiTest {
@@ -38,4 +38,4 @@ TEST_F(CheckTest, WhatIsWrongHasItsPlace) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::check_test

@@ -2,7 +2,7 @@
 
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::compare_test {
 namespace {
 
 class CompareTest : public ApiTest {
@@ -180,4 +180,4 @@ TEST_F(CompareTest, RefusesWithOneSentence) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::compare_test

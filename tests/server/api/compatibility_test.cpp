@@ -3,7 +3,7 @@
 
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::compatibility_test {
 namespace {
 
 class CompatibilityApi : public ApiTest {};
@@ -38,4 +38,4 @@ TEST_F(CompatibilityApi, SaysWhyThereIsNone) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::compatibility_test

@@ -1,6 +1,6 @@
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::control_test {
 namespace {
 
 const Json kEndless{{"scenario", "consensus"}, {"pace", 50}, {"patch", {{"time", {{"steps", nullptr}}}}}};
@@ -191,4 +191,4 @@ TEST_F(ControlTest, AtMostOneEarlierDemoIsKept) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::control_test

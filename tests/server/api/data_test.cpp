@@ -1,6 +1,6 @@
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::data_test {
 namespace {
 
 class DataTest : public ApiTest {
@@ -130,4 +130,4 @@ TEST_F(DataTest, TheGlobalStreamTellsStates) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::data_test

@@ -4,7 +4,7 @@
 #include "engine/world/interconnected/plant.hpp"
 #include "tests/server/synthesis/scripts.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::designs_test {
 namespace {
 
 const Json kShort{{"time", {{"steps", 200}}}};
@@ -266,4 +266,4 @@ TEST_F(DesignsTest, ManyAreDescribedAndCounted) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::designs_test

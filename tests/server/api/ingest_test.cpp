@@ -2,7 +2,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/api/measured.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::ingest_test {
 namespace {
 
 constexpr const char* kLines = "application/x-ndjson";
@@ -215,4 +215,4 @@ TEST_F(IngestTest, AfterARestartTheRunIsInterruptedOrStoppedAndItsRowsAreThere) 
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::ingest_test

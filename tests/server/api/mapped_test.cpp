@@ -3,7 +3,7 @@
 #include "engine/run/pushed_columns.hpp"
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::mapped_test {
 namespace {
 
 using MappedTest = ApiTest;
@@ -89,4 +89,4 @@ TEST_F(MappedTest, ForksAreFoundByTheirParent) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::mapped_test

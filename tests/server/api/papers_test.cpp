@@ -4,7 +4,7 @@
 #include "server/papers/threads.hpp"
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::papers_test {
 namespace {
 
 constexpr const char* kPath = "/api/v1/papers";
@@ -191,4 +191,4 @@ TEST_F(PapersApi, TheReportIsThatOfTheCommand) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::papers_test

@@ -1,6 +1,6 @@
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::runs_test {
 namespace {
 
 using RunsTest = ApiTest;
@@ -183,4 +183,4 @@ TEST_F(RunsTest, ADeletedRunIsGone) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::runs_test

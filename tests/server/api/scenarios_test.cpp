@@ -1,6 +1,6 @@
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::scenarios_test {
 namespace {
 
 using ScenariosTest = ApiTest;
@@ -107,4 +107,4 @@ TEST_F(TracesTest, FramesOfARunAreATraceWithTheSameLanes) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::scenarios_test

@@ -3,7 +3,7 @@
 
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::system_test {
 namespace {
 
 using SystemTest = ApiTest;
@@ -186,4 +186,4 @@ TEST_F(EveryRoute, RefusesWhatIsMalformedWithoutAFault) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::system_test

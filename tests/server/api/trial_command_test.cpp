@@ -6,7 +6,7 @@
 
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::trial_command_test {
 namespace {
 
 class TrialCommand : public ApiTest {
@@ -101,4 +101,4 @@ TEST(ShellWord, KeepsEveryCharacter) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::trial_command_test

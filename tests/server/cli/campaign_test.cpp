@@ -15,7 +15,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::campaign_test {
 namespace {
 
 Json without_timing(const std::string& text) {
@@ -174,4 +174,4 @@ TEST(CampaignCommand, WhatCannotGoOnIsSaid) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::campaign_test

@@ -4,7 +4,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::check_test {
 namespace {
 
 const Json kOwn{{"vigil", 1},
@@ -65,4 +65,4 @@ TEST(CheckCommand, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::check_test

@@ -4,7 +4,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::cli_test {
 namespace {
 
 std::string text_of(const std::string& file) {
@@ -168,4 +168,4 @@ TEST(CommandLine, TheLogIsBackedUpPrunedAndShrunk) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::cli_test

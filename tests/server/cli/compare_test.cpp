@@ -3,7 +3,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::compare_test {
 namespace {
 
 Json json_of(const Outcome& outcome) {
@@ -77,4 +77,4 @@ TEST(CompareCommand, RefusesWithOneSentence) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::compare_test

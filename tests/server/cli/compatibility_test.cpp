@@ -5,7 +5,7 @@
 
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::compatibility_test {
 namespace {
 
 TEST(CompatibilityCommand, PrintsTheTableAndItsReasons) {
@@ -28,4 +28,4 @@ TEST(CompatibilityCommand, NeedsTheTraceThatTheScenarioNeeds) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::compatibility_test

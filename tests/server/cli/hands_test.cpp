@@ -4,7 +4,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::hands_test {
 namespace {
 
 class HandsTest : public ::testing::Test {
@@ -76,4 +76,4 @@ TEST_F(HandsTest, WhatIsWrongIsSaidInOneSentence) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::hands_test

@@ -6,7 +6,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::identify_test {
 namespace {
 
 /// A tank under a pump, on hours 300 to 319 its reading 3 too high where `attacked`.
@@ -109,4 +109,4 @@ TEST(IdentifyCommand, BadInputIsOneSentenceAndCodeTwo) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::identify_test

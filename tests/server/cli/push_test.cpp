@@ -7,7 +7,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::push_test {
 namespace {
 
 class PushTest : public ::testing::Test {
@@ -82,4 +82,4 @@ TEST_F(PushTest, AKilledServerLeavesAnInterruptedRunWithItsRows) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::push_test

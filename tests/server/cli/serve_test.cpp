@@ -5,7 +5,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::serve_test {
 namespace {
 
 TEST(Serve, SaysWhereItListensAndEndsCleanly) {
@@ -109,4 +109,4 @@ TEST(Serve, AKillLosesNothingThatWasAcknowledged) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::serve_test

@@ -8,7 +8,7 @@
 #include "tests/server/cli/command.hpp"
 #include "tests/server/synthesis/scripts.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::synthesize_test {
 namespace {
 
 /// A ring of so many subsystems with one lane, as a file.
@@ -157,4 +157,4 @@ TEST(Synthesize, AServerEndsInTheMiddleOfASolve) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::synthesize_test

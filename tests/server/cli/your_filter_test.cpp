@@ -6,7 +6,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::your_filter_test {
 namespace {
 
 /// The page's code block of that language.
@@ -50,4 +50,4 @@ TEST(YourFilter, TheMatlabSnippetParses) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::your_filter_test

@@ -12,7 +12,7 @@
 #include "server/crew/shipped_plan.hpp"
 #include "server/crew/threads.hpp"
 
-namespace vigil {
+namespace vigil::crew_test {
 namespace {
 
 std::string bytes_of(std::size_t size, unsigned seed) {
@@ -278,4 +278,4 @@ TEST(Fingerprint, SaysWhatDiffers) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::crew_test

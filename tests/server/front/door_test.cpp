@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vigil {
+namespace vigil::door_test {
 namespace {
 
 constexpr const char* kFull = "full-token-0123456789";
@@ -174,4 +174,4 @@ TEST(Doorkeeper, SecretsCompareAsStringsDo) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::door_test

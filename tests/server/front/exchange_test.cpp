@@ -5,7 +5,7 @@
 #include "tests/server/front/client.hpp"
 #include "tests/server/front/server.hpp"
 
-namespace vigil::test {
+namespace vigil::test::exchange_test {
 namespace {
 
 TEST(Exchange, KeepsTheConnection) {
@@ -196,4 +196,4 @@ TEST(Exchange, TokensCookiesAndViewers) {
 }
 
 }  // namespace
-}  // namespace vigil::test
+}  // namespace vigil::test::exchange_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace vigil {
+namespace vigil::head_test {
 namespace {
 
 const HeadLimits kLimits;
@@ -178,4 +178,4 @@ TEST(HeadScan, GivesUpBeforeTheEndComes) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::head_test

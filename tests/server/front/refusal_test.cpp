@@ -8,7 +8,7 @@
 #include "tests/server/front/client.hpp"
 #include "tests/server/front/server.hpp"
 
-namespace vigil::test {
+namespace vigil::test::refusal_test {
 namespace {
 
 long resident_kilobytes() {
@@ -167,4 +167,4 @@ TEST(Refusals, GarbageNeverHurts) {
 }
 
 }  // namespace
-}  // namespace vigil::test
+}  // namespace vigil::test::refusal_test

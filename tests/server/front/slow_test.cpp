@@ -9,7 +9,7 @@
 #include "tests/server/front/client.hpp"
 #include "tests/server/front/server.hpp"
 
-namespace vigil::test {
+namespace vigil::test::slow_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -179,4 +179,4 @@ TEST(Start, SaysWhyThePortCannotBeHad) {
 }
 
 }  // namespace
-}  // namespace vigil::test
+}  // namespace vigil::test::slow_test

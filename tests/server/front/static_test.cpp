@@ -7,7 +7,7 @@
 #include "tests/server/front/client.hpp"
 #include "tests/server/front/server.hpp"
 
-namespace vigil::test {
+namespace vigil::test::static_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,4 +79,4 @@ TEST_F(StaticTest, NothingLeadsOutOfTheFolder) {
 TEST(StaticFiles, SaysWhatItCannotRead) { EXPECT_THROW(StaticFiles("/nowhere/at/all"), std::runtime_error); }
 
 }  // namespace
-}  // namespace vigil::test
+}  // namespace vigil::test::static_test

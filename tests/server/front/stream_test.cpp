@@ -7,7 +7,7 @@
 #include "tests/server/front/client.hpp"
 #include "tests/server/front/server.hpp"
 
-namespace vigil::test {
+namespace vigil::test::stream_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -240,4 +240,4 @@ TEST_F(StreamTest, PublishersAndViewersComeAndGoTogether) {
 }
 
 }  // namespace
-}  // namespace vigil::test
+}  // namespace vigil::test::stream_test

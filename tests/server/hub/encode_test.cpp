@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace vigil {
+namespace vigil::encode_test {
 namespace {
 
 std::string number(double value) {
@@ -46,4 +46,4 @@ TEST(Encode, ChunksSayTheirSize) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::encode_test

@@ -6,7 +6,7 @@
 #include "server/hub/viewer.hpp"
 #include "tests/server/front/server.hpp"
 
-namespace vigil::test {
+namespace vigil::test::hub_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -339,4 +339,4 @@ TEST_F(ByteRing, EncodedFramesAreBoundedInBytes) {
 }
 
 }  // namespace
-}  // namespace vigil::test
+}  // namespace vigil::test::hub_test

@@ -7,7 +7,7 @@
 
 #include "engine/core/input_error.hpp"
 
-namespace vigil {
+namespace vigil::assembler_test {
 namespace {
 
 /// Two nodes with a channel each, and an input.
@@ -134,4 +134,4 @@ TEST(Assembler, ATickWaitsForTheInputsOfThePlant) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::assembler_test

@@ -5,7 +5,7 @@
 
 #include "tests/fuzz/ingest_case.hpp"
 
-namespace vigil {
+namespace vigil::mutation_test {
 namespace {
 
 const std::string kGood[] = {
@@ -54,4 +54,4 @@ TEST(PushedBodies, AreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::mutation_test

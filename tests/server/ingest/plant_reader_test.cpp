@@ -9,7 +9,7 @@
 #include "engine/core/input_error.hpp"
 #include "server/front/message.hpp"
 
-namespace vigil {
+namespace vigil::plant_reader_test {
 namespace {
 
 PushedColumns tanks() {
@@ -155,4 +155,4 @@ TEST(PlantOptions, AreReadStrictly) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::plant_reader_test

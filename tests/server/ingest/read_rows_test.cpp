@@ -8,7 +8,7 @@
 #include "engine/core/describe.hpp"
 #include "server/front/message.hpp"
 
-namespace vigil {
+namespace vigil::read_rows_test {
 namespace {
 
 class ReadRows : public ::testing::Test {
@@ -118,4 +118,4 @@ TEST_F(ReadRows, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::read_rows_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace vigil {
+namespace vigil::sampler_test {
 namespace {
 
 PushedColumns two_channels() {
@@ -110,4 +110,4 @@ TEST(PartialRows, AWholeRowOfANodeThatHasBegunIsTakenOnce) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::sampler_test

@@ -5,7 +5,7 @@
 #include "tests/server/cli/command.hpp"
 #include "tests/server/mqtt/fixture.hpp"
 
-namespace vigil::mqtt_test {
+namespace vigil::mqtt_test::alarms_test {
 namespace {
 
 using api_test::eventually;
@@ -127,4 +127,4 @@ TEST_F(AlarmsTest, ABrokerThatIsGoneHoldsNobodyUpAndHearsTheStatesLater) {
 }
 
 }  // namespace
-}  // namespace vigil::mqtt_test
+}  // namespace vigil::mqtt_test::alarms_test

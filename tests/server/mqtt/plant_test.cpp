@@ -2,7 +2,7 @@
 #include "tests/server/api/measured.hpp"
 #include "tests/server/mqtt/fixture.hpp"
 
-namespace vigil::mqtt_test {
+namespace vigil::mqtt_test::plant_test {
 namespace {
 
 using api_test::eventually;
@@ -187,4 +187,4 @@ TEST_F(WithoutTopics, ARunThatWantsThemIsRefused) {
 }
 
 }  // namespace
-}  // namespace vigil::mqtt_test
+}  // namespace vigil::mqtt_test::plant_test

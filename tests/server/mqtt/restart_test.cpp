@@ -4,7 +4,7 @@
 
 #include "tests/server/mqtt/fixture.hpp"
 
-namespace vigil::mqtt_test {
+namespace vigil::mqtt_test::restart_test {
 namespace {
 
 using api_test::eventually;
@@ -68,4 +68,4 @@ TEST_F(RestartTest, NoReadingIsLost) {
 }
 
 }  // namespace
-}  // namespace vigil::mqtt_test
+}  // namespace vigil::mqtt_test::restart_test

@@ -8,7 +8,7 @@
 #include "tests/server/api/fixture.hpp"
 #include "tests/server/cli/command.hpp"
 
-namespace vigil::mqtt_test {
+namespace vigil::mqtt_test::serve_test {
 namespace {
 
 using api_test::vigil_command;
@@ -61,4 +61,4 @@ TEST(ServeMqtt, WhatCannotBeUsedIsNamed) {
 }
 
 }  // namespace
-}  // namespace vigil::mqtt_test
+}  // namespace vigil::mqtt_test::serve_test

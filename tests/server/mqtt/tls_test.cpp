@@ -7,7 +7,7 @@
 #include "tests/server/cli/command.hpp"
 #include "tests/server/mqtt/fixture.hpp"
 
-namespace vigil::mqtt_test {
+namespace vigil::mqtt_test::tls_test {
 namespace {
 
 using api_test::eventually;
@@ -82,4 +82,4 @@ TEST_F(TlsTest, OnlyWhoIsKnownAndKnowsTheBrokerGetsIn) {
 }
 
 }  // namespace
-}  // namespace vigil::mqtt_test
+}  // namespace vigil::mqtt_test::tls_test

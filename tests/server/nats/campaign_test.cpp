@@ -9,7 +9,7 @@
 #include "tests/server/cli/command.hpp"
 #include "tests/server/nats/processes.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::campaign_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -244,4 +244,4 @@ TEST_F(OverNats, WhatCannotBeIsSaid) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::campaign_test

@@ -2,7 +2,7 @@
 #include "tests/server/cli/command.hpp"
 #include "tests/server/nats/processes.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::serve_test {
 namespace {
 
 Answer post(const Client& client, const Json& body) { return client.send("POST", "/api/v1/campaigns", body.dump()); }
@@ -61,4 +61,4 @@ TEST(ServeWithABroker, ACampaignOfWorkersIsPausedAndGoesOnWithoutThem) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::serve_test

@@ -10,7 +10,7 @@
 #include "server/papers/threads.hpp"
 #include "server/synthesis/dsdp_solver.hpp"
 
-namespace vigil::papers {
+namespace vigil::papers::basis_test {
 namespace {
 
 /// A laboratory that remembers which runs it was asked for, one lane at a time.
@@ -123,4 +123,4 @@ TEST(PapersEstimates, OfEqualValuesHaveNoErrorFromRounding) {
 }
 
 }  // namespace
-}  // namespace vigil::papers
+}  // namespace vigil::papers::basis_test

@@ -5,7 +5,7 @@
 
 #include "engine/core/json.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::command_test {
 namespace {
 
 TEST(PapersCommand, PrintsTheVerdicts) {
@@ -33,4 +33,4 @@ TEST(PapersCommand, RefusesWhatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::command_test

@@ -10,7 +10,7 @@
 #include "server/papers/threads.hpp"
 #include "server/synthesis/dsdp_solver.hpp"
 
-namespace vigil::papers {
+namespace vigil::papers::papers_test {
 namespace {
 
 constexpr const char* kYes = "reproduced";
@@ -178,4 +178,4 @@ TEST(Papers, TheReportHoldsEveryItemAndNothingOfTheWebs) {
 }
 
 }  // namespace
-}  // namespace vigil::papers
+}  // namespace vigil::papers::papers_test

@@ -10,7 +10,7 @@
 #include "server/plant/credentials.hpp"
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil {
+namespace vigil::topic_pattern_test {
 namespace {
 
 TEST(TopicPatterns, PlacesAreReadOutOfATopic) {
@@ -85,4 +85,4 @@ TEST_F(CredentialsTest, AreRefusedWithoutShowingASecret) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::topic_pattern_test

@@ -16,7 +16,7 @@
 #include "server/runs/glob.hpp"
 #include "server/runs/order.hpp"
 
-namespace vigil {
+namespace vigil::pieces_test {
 namespace {
 
 TEST(Glob, StarsAndQuestionMarks) {
@@ -236,4 +236,4 @@ TEST(Campaign, CallsBackInOrderAndStopsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::pieces_test

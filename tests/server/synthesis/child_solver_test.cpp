@@ -11,7 +11,7 @@
 #include "server/synthesis/dsdp_solver.hpp"
 #include "tests/server/synthesis/scripts.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::child_solver_test {
 namespace {
 
 SdpProblem ring_problem(int subsystems) {
@@ -170,4 +170,4 @@ TEST_F(Child, DiesWithItsParent) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::child_solver_test

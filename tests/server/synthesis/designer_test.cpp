@@ -7,7 +7,7 @@
 #include "server/runs/refusal.hpp"
 #include "tests/server/synthesis/scripts.hpp"
 
-namespace vigil::api_test {
+namespace vigil::api_test::designer_test {
 namespace {
 
 using State = DesignItem::State;
@@ -205,4 +205,4 @@ TEST_F(DesignerTest, OldAnswersLeaveTheMemoryButNotTheLog) {
 }
 
 }  // namespace
-}  // namespace vigil::api_test
+}  // namespace vigil::api_test::designer_test

@@ -8,7 +8,7 @@
 #include "engine/world/interconnected/examples.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 
-namespace vigil {
+namespace vigil::dsdp_solver_test {
 namespace {
 
 SdpProblem problem(std::vector<double> cost, std::vector<int> blocks, std::vector<SdpEntry> entries) {
@@ -89,4 +89,4 @@ TEST(Dsdp, DoesNotFallOverOddProblems) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::dsdp_solver_test

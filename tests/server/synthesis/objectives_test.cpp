@@ -1,7 +1,7 @@
 // Objectives within 1 % and certificates of the problems that the specification measured, sections 6 and 8.1.
 #include "tests/server/synthesis/designs.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::objectives_test {
 namespace {
 
 TEST(Objectives, AreTheSpecifications) {
@@ -107,4 +107,4 @@ TEST(TheFallback, IsCertifiedOrRefused) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::objectives_test

@@ -7,7 +7,7 @@
 #include "tests/engine/methods/observer/networks.hpp"
 #include "tests/engine/runs/capture.hpp"
 
-namespace vigil {
+namespace vigil::run_tables_test {
 namespace {
 
 constexpr double kLimit = 60;  // s, of a solve
@@ -164,4 +164,4 @@ TEST(ObserverTables, SystemsOfOnesOwnOfMixedSizesAndOneWayCouplings) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::run_tables_test

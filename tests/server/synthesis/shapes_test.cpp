@@ -4,7 +4,7 @@
 
 #include "tests/server/synthesis/designs.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::shapes_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -124,4 +124,4 @@ TEST(Integration, HasConvergedAtTheChosenStep) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::shapes_test

@@ -2,7 +2,7 @@
 // rounding.
 #include "tests/server/synthesis/designs.hpp"
 
-namespace vigil::observer {
+namespace vigil::observer::tables_test {
 namespace {
 
 constexpr double kShare = 0.1;
@@ -152,4 +152,4 @@ TEST(Nonlinearities, MatterLittleToTheErrors) {
 }
 
 }  // namespace
-}  // namespace vigil::observer
+}  // namespace vigil::observer::tables_test

@@ -10,7 +10,7 @@
 #include "engine/core/input_error.hpp"
 #include "tests/server/api/fixture.hpp"
 
-namespace vigil {
+namespace vigil::webhooks_test {
 namespace {
 
 using api_test::eventually;
@@ -177,4 +177,4 @@ TEST_F(WebhookRun, AlarmsOfARunAreSent) {
 }
 
 }  // namespace
-}  // namespace vigil
+}  // namespace vigil::webhooks_test

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "engine/linalg/covariance.hpp"
 #include "engine/methods/privacy/landmark_robot.hpp"
 #include "engine/methods/privacy/lmv_fusion.hpp"
 
@@ -12,10 +13,6 @@ namespace vigil::privacy::local_filters_test {
 namespace {
 
 using Eigen::MatrixXd;
-
-double least_eigenvalue(const MatrixXd& P) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(P, Eigen::EigenvaluesOnly).eigenvalues()[0];
-}
 
 // All 24 numbers of (4-33), to the digits printed.
 TEST(PrivacyFilters, TheEnginesGainsAndWeightsAreThePrintedOnes) {

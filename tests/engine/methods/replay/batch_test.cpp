@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "engine/linalg/covariance.hpp"
 #include "engine/linalg/ellipsoid.hpp"
 #include "tests/engine/linalg/random_matrices.hpp"
 #include "tests/engine/methods/replay/tank.hpp"

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "engine/linalg/covariance.hpp"
 #include "engine/linalg/ellipsoid.hpp"
 #include "engine/linalg/riccati.hpp"
 #include "engine/methods/replay/batch.hpp"
