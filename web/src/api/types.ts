@@ -187,7 +187,7 @@ export interface NewRun {
   patch?: Record<string, unknown>;
   seed?: number;
   pace?: Pace;
-  input?: 'simulate' | 'ingest' | { trace: string } | { ingest: { deadline?: number; columns?: string[] } };
+  input?: 'simulate' | 'ingest' | { trace: string } | { ingest: { deadline?: number; columns?: string[]; mqtt?: { name: string; clock: string } } };
   tags?: string[];
   note?: string;
 }

@@ -23,6 +23,10 @@ export interface IngestStatus extends Tally {
   /** Ticks that wait for the run. */
   waiting: number;
   room: number;
+  /** Where messages of a broker are taken, too: the run's name there. */
+  mqtt?: { name: string; clock: string };
+  /** Messages that could not be used, and the newest reasons. */
+  refused?: { messages: number; newest: string[] };
 }
 
 const rowsACall = 500;

@@ -3,6 +3,11 @@ import { dictionary, type Translation } from '../../../i18n/i18n.svelte';
 const en = {
   title: 'Readings',
   note: 'pushed into this run; a tick closes when all its nodes have reported, or {deadline} s after its first row',
+  broker: 'In the broker’s topics this run is {name} or {id}.',
+  clock_k: 'A message says its tick.',
+  clock_time: 'A message says its time.',
+  clock_arrival: 'A message is of the tick in which it comes.',
+  unusable: 'Messages that could not be used: {n}',
   address: 'Push rows to',
   columns: '{n} columns it takes',
   curl: 'With curl',
@@ -34,6 +39,11 @@ const en = {
 const zh: Translation<typeof en> = {
   title: '量测输入',
   note: '推送到本运行；某时刻的所有节点都已报告，或其首行到达 {deadline} 秒后，该时刻关闭',
+  broker: '在代理的主题中，本运行名为 {name} 或 {id}。',
+  clock_k: '消息给出时刻。',
+  clock_time: '消息给出时间。',
+  clock_arrival: '按到达时刻计。',
+  unusable: '无法使用的消息：{n}',
   address: '推送地址',
   columns: '可接收 {n} 列',
   curl: '用 curl',
