@@ -216,10 +216,22 @@ describe('papers', () => {
     await view.close();
   });
 
-  test('says which item there is not, and shows the list', async () => {
-    const view = await open('/papers?item=009/fig1');
-    await view.page.getByRole('alert').getByText('There is no item 009/fig1.').waitFor();
-    await row(view.page, '000/fig1').waitFor();
+  for (const address of ['/papers?item=009/fig1', '/papers/009/fig1']) {
+    test(`says which item there is not, and shows the list: ${address}`, async () => {
+      const view = await open(address);
+      await view.page.getByRole('alert').getByText('There is no item 009/fig1.').waitFor();
+      await row(view.page, '000/fig1').waitFor();
+      await view.close();
+    });
+  }
+
+  test('an item has an address to type and to cite', async () => {
+    const view = await open('/papers/000/fig4');
+    await view.page.getByRole('article').getByText('000/fig4').first().waitFor();
+    await view.page.getByRole('link', { name: /^Next: 000\/fig5/ }).click();
+    await view.page.getByRole('article').getByText('000/fig5').first().waitFor();
+    await view.page.getByRole('link', { name: 'All items' }).click();
+    await row(view.page, '000/fig4').waitFor();
     await view.close();
   });
 

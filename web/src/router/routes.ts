@@ -25,6 +25,7 @@ export const routes: Route[] = [
   { pattern: '/scenarios/:id', section: 'scenarios', load: () => import('../pages/scenarios/ScenarioPage.svelte') },
   { pattern: '/system', section: 'scenarios', load: () => import('../pages/system/SystemPage.svelte') },
   { pattern: '/papers', section: 'papers', load: () => import('../pages/papers/PapersPage.svelte') },
+  { pattern: '/papers/:source/:figure', section: 'papers', load: () => import('../pages/papers/PapersPage.svelte') },
   { pattern: '/methods', section: 'papers', load: () => import('../pages/methods/MethodsPage.svelte') },
   { pattern: '/methods/:id', section: 'papers', load: () => import('../pages/methods/MethodPage.svelte') },
   { pattern: '/about', section: 'about', load: () => import('../pages/about/AboutPage.svelte') },
