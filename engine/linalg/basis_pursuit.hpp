@@ -43,7 +43,7 @@ class BasisPursuit {
   // The problem in unit size: rows_ e = right_, e = entries / size_; gram_ factors rows_ rows_'.
   Eigen::MatrixXd rows_;
   Eigen::VectorXd lengths_, right_, least_squares_;
-  Eigen::LLT<Eigen::MatrixXd> gram_;
+  Eigen::LLT<Eigen::MatrixXd> gram_{Eigen::MatrixXd::Identity(1, 1)};  ///< one that never was made must not be copied
   double size_ = 0;
   // The iterate: z = [u v], slacks s, multipliers y; a step of each; the residuals of D z = b, of the dual, of z s =
   // mu.
@@ -51,7 +51,7 @@ class BasisPursuit {
   Eigen::VectorXd ratio_;  ///< z / s
   Eigen::VectorXd column_scratch_, row_scratch_;
   Eigen::MatrixXd weighted_, normal_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  Eigen::LLT<Eigen::MatrixXd> cholesky_{Eigen::MatrixXd::Identity(1, 1)};
   L1Simplex simplex_;
   int max_iterations_ = 0, iterations_ = 0;
   bool by_simplex_ = false;

@@ -41,12 +41,19 @@ const Fingerprint& own_fingerprint() {
   return print;
 }
 
+namespace {
+
+/// Longer than in_quotes, since builds may differ at their ends only; not without end, since somebody else said it.
+std::string whole(const std::string& text) { return dump(Json(text.substr(0, 400))); }
+
+}  // namespace
+
 std::optional<std::string> difference(const Fingerprint& theirs, const Fingerprint& mine) {
   for (const char* part : {"version", "build", "processor", "libraries", "computation"}) {
     const std::string here = mine.is_object() ? mine.value(part, "") : "";
     const std::string there = theirs.is_object() ? theirs.value(part, "") : "";
     if (here != there)
-      return std::string("its ").append(part) + " is " + in_quotes(here) + ", the campaign's is " + in_quotes(there);
+      return std::string("its ").append(part) + " is " + whole(here) + ", the campaign's is " + whole(there);
   }
   return std::nullopt;
 }

@@ -73,14 +73,20 @@ NatsConnection::NatsConnection(const NatsOptions& given) : options_(given) {
     ++times_;
   }
   jsCtx* streams = nullptr;
-  check(natsConnection_JetStream(&streams, connection, nullptr), "JetStream");
+  const natsStatus made = natsConnection_JetStream(&streams, connection, nullptr);
   streams_.reset(streams);
+  if (made != NATS_OK) close();
+  check(made, "JetStream");
 }
 
-NatsConnection::~NatsConnection() {
+NatsConnection::~NatsConnection() { close(); }
+
+void NatsConnection::close() {
   ending_ = true;
   streams_.reset();
   natsConnection_Close(connection_.get());
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return closed_; });
 }
 
 void NatsConnection::on_connected(natsConnection* /*connection*/, void* self) {
@@ -96,10 +102,12 @@ void NatsConnection::on_lost(natsConnection* /*connection*/, void* self) {
 
 void NatsConnection::on_closed(natsConnection* connection, void* self) {
   auto& own = *static_cast<NatsConnection*>(self);
+  const std::lock_guard lock(own.mutex_);
+  own.closed_ = true;
+  own.changed_.notify_all();
   if (own.ending_) return;
   const char* reason = nullptr;
   natsConnection_GetLastError(connection, &reason);
-  const std::lock_guard lock(own.mutex_);
   own.refusal_ = "the broker at " + own.options_.url + " refused the connection";
   if (reason != nullptr && *reason != '\0') own.refusal_ += std::string(": ") + reason;
 }

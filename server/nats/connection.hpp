@@ -4,6 +4,7 @@
 #include <nats/nats.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -55,11 +56,15 @@ class NatsConnection {
   static void on_connected(natsConnection* connection, void* self);
   static void on_lost(natsConnection* connection, void* self);
   static void on_closed(natsConnection* connection, void* self);
+  /// Until the library's thread has made its last call back.
+  void close();
 
   NatsOptions options_;
   std::atomic<std::uint64_t> times_{0};
   std::atomic<bool> lost_{false}, ending_{false};
   mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool closed_ = false;  ///< no call back comes any more
   std::string refusal_;
   NatsOwned<natsConnection> connection_;
   NatsOwned<jsCtx> streams_;

@@ -52,6 +52,12 @@ WorkBoard::Known WorkBoard::meet(const CampaignNotice& notice) const {
   return known;
 }
 
+CrewMember WorkBoard::member(const Known& known) const {
+  CrewMember self = self_;
+  self.refused = known.refused;
+  return self;
+}
+
 void WorkBoard::hear(const natsMsg* message) {
   const auto notice = campaign_notice(text_of(message));
   if (!notice) return;
@@ -64,7 +70,11 @@ void WorkBoard::hear(const natsMsg* message) {
     known_.erase(place);
     return;
   }
-  if (place == known_.end()) place = known_.emplace(notice->id, meet(*notice)).first;
+  if (place == known_.end()) {
+    place = known_.emplace(notice->id, meet(*notice)).first;
+    // At once: a campaign hands out as much as the threads it knows of can make.
+    connection_.publish(crew_subject(notice->id), to_text(member(place->second)));
+  }
   place->second.key = notice->key;
   place->second.heard = Clock::now();
   changed_.notify_all();
@@ -94,9 +104,7 @@ void WorkBoard::tick() {
     const auto now = Clock::now();
     for (auto& [id, known] : known_) {
       if (!connected || !was_connected_) known.heard = now;  // silence counts only while somebody could be heard
-      CrewMember self = self_;
-      self.refused = known.refused;
-      words.emplace_back(crew_subject(id), std::move(self));
+      words.emplace_back(crew_subject(id), member(known));
     }
     was_connected_ = connected;
     std::erase_if(known_, [&](const auto& one) {

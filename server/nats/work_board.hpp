@@ -63,6 +63,7 @@ class WorkBoard {
   };
   void hear(const natsMsg* message);
   Known meet(const CampaignNotice& notice) const;
+  CrewMember member(const Known& known) const;
 
   const NatsConnection& connection_;
   const CrewMember self_;

@@ -34,7 +34,8 @@ TEST(Identifiability, IsThatOfTheSpecification) {
 
 TEST(Identifiability, CoherenceStaysInItsRangeAlongTheTrack) {
   for (double time = 0; time <= 10; time += 0.5) {
-    for (const Json& station : sparse::identifiability(known(), 6, 2, time)["stations"]) {
+    const Json report = sparse::identifiability(known(), 6, 2, time);
+    for (const Json& station : report.at("stations")) {
       EXPECT_GE(station["coherence"].get<double>(), 0.325) << time << station;
       EXPECT_LE(station["coherence"].get<double>(), 0.515) << time << station;
     }
