@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "db/records.hpp"
-#include "engine/core/describe.hpp"
+#include "engine/core/json.hpp"
 #include "engine/run/campaign.hpp"
 #include "server/runs/order.hpp"
 
