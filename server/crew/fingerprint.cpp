@@ -44,7 +44,9 @@ const Fingerprint& own_fingerprint() {
 namespace {
 
 /// Longer than in_quotes, since builds may differ at their ends only; not without end, since somebody else said it.
-std::string whole(const std::string& text) { return dump(Json(text.substr(0, 400))); }
+std::string whole(const std::string& text) {
+  return Json(text.substr(0, 400)).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 }  // namespace
 
