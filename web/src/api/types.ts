@@ -1,4 +1,5 @@
 /// What the server's API answers, as its contract says. Nothing here is computed by the page.
+import type { BrokerName } from './broker';
 import type { DesignItem } from './designs';
 
 export interface Localised {
@@ -187,7 +188,7 @@ export interface NewRun {
   patch?: Record<string, unknown>;
   seed?: number;
   pace?: Pace;
-  input?: 'simulate' | 'ingest' | { trace: string } | { ingest: { deadline?: number; columns?: string[]; mqtt?: { name: string; clock: string } } };
+  input?: 'simulate' | 'ingest' | { trace: string } | { ingest: { deadline?: number; columns?: string[]; mqtt?: BrokerName } };
   tags?: string[];
   note?: string;
 }

@@ -1,10 +1,8 @@
 /// What a run's readings come from, as the form has it and as the server takes it.
+import type { Clock } from '../../api/broker';
 import type { NewRun } from '../../api/types';
 
 export type InputKind = 'simulate' | 'ingest' | 'trace';
-/** How a message on the broker says which tick it is of; docs/mqtt.md. */
-export const clocks = ['k', 'time', 'arrival'] as const;
-export type Clock = (typeof clocks)[number];
 
 export interface ChosenInput {
   kind: InputKind;

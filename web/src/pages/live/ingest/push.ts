@@ -1,4 +1,5 @@
 /// A table of rows, piece by piece, into a run that takes readings.
+import type { BrokerName } from '../../../api/broker';
 import { address, postCsv } from '../../../api/client';
 import { ApiProblem } from '../../../api/problem';
 import { cellsOf, linesOf } from '../../../data/csv_text';
@@ -24,7 +25,7 @@ export interface IngestStatus extends Tally {
   waiting: number;
   room: number;
   /** Where messages of a broker are taken, too: the run's name there. */
-  mqtt?: { name: string; clock: string };
+  mqtt?: BrokerName;
   /** Messages that could not be used, and the newest reasons. */
   refused?: { messages: number; newest: string[] };
 }
